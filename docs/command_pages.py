@@ -9,9 +9,9 @@ import typer
 from clamber.cli.app import application, commands_below
 
 GROUPS: Final = {
-    "Plan": ("plan", "polish", "rehearse", "learn", "inventory", "sweep", "reach", "ditch"),
+    "Plan": ("plan", "shorten", "validate", "learn", "inventory", "sweep", "reach", "ditch"),
     "Check and look": ("check", "show", "view", "export", "schema", "list", "doctor"),
-    "Simulate": ("run", "trials", "most", "press", "follow", "plant"),
+    "Simulate": ("run", "trials", "max-setting", "hold-force", "follow", "plant"),
     "Compare controllers": ("limb", "body"),
     "Files to start from": ("new", "calibrate"),
     "Benchmarks and papers": ("bench", "study"),

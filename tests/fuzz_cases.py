@@ -63,7 +63,7 @@ NAMES: Final = (
 QUICK: Final = tuple(
     line.split()
     for line in (
-        "list planners", f"plan ladder {' '.join(FEW)}", "polish two.json --width 0 --effort 5", "inventory ladder", "check ladder-hand",
+        "list planners", f"plan ladder {' '.join(FEW)}", "shorten two.json --width 0 --effort 5", "inventory ladder", "check ladder-hand",
         "check libra", "check two.json", "export hoshino -o robot.urdf", "export two.json -o plan.csv",
         "reach ladder --stances 50 --threads 1",
         "limb step -c scct --seconds 0.05", "limb circle -c scct --lap 0.1 --laps 1", "limb open-loop --seconds 0.02",
@@ -113,7 +113,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
         run: Runs a command.
     """
     from clamber.execution.log_files import read_log, write_log
-    from clamber.families.climber.execution.course import climbable
+    from clamber.families.climber.execution.executable_plan import climbable
     from clamber.families.climber.planning.plans import thesis_code
     from clamber.planning.problem.plan import Plan
     from clamber.tasks import load_task
@@ -237,7 +237,7 @@ def _plan(rng: random.Random, folder: Path) -> list[str]:
     (folder / "plan.json").write_bytes(spoilt(rng, data, json.dumps))
     return rng.choice(
         ["check plan.json", "check plan.json --all", "export plan.json -o x.csv", "export plan.json -o x.md", "check plan.json --task h",
-         "polish plan.json --width 0 --effort 5", "rehearse plan.json -n 1 --set nokey=1", "check plan.json --set start.y=6.2in --json"]
+         "shorten plan.json --width 0 --effort 5", "validate plan.json -n 1 --set nokey=1", "check plan.json --set start.y=6.2in --json"]
     ).split()  # fmt: skip
 
 
@@ -430,8 +430,9 @@ def _refused_with_options(rng: random.Random, folder: Path) -> list[str]:
 
 
 SLOW: Final = frozenset(
-    {("run",), ("trials",), ("rehearse",), ("study",), ("bench",), ("learn",), ("most",), ("view",), ("show",), ("sweep",), ("plan",),
-     ("polish",),
+    {("run",), ("trials",), ("validate",), ("study",), ("bench",), ("learn",), ("max-setting",),
+     ("view",), ("show",), ("sweep",), ("plan",),
+     ("shorten",),
      ("limb", "portrait"), ("limb", "tune"), ("limb", "sweep"), ("plant", "serve"), ("follow",), ("reach",)}
 )  # fmt: skip
 """Commands that may take long with a thing that is there."""

@@ -79,3 +79,15 @@ def test_the_pythons_that_are_promised_are_those_that_are_tried() -> None:
     promised = [line.rpartition(" ")[2] for line in PROJECT["classifiers"] if re.search(r":: 3\.\d+$", line)]
     assert tried.split() == promised
     assert PROJECT["requires-python"] == f">={promised[0]}"
+
+
+def test_the_page_names_the_versions_that_are_allowed_and_those_that_are_locked() -> None:
+    page = (ROOT / "docs" / "start.md").read_text(encoding="utf-8")
+    locked, lowest = (re.search(rf"\| {row} \| (.*) \|", page) for row in ("all tests, in CI", "lowest allowed"))
+    assert locked is not None and lowest is not None
+    floors = {name: floor for name, floor in (re.split(">=", each.split(",")[0]) for each in PROJECT["dependencies"])}
+    for name in ("numpy", "numba", "scipy", "mujoco", "matplotlib", "pillow"):
+        told = re.search(rf"{name} ([\d.]+\d)", lowest[1])
+        assert told is not None and told[1].startswith(floors[name]), name
+        pinned = re.search(rf"^{name}==([\d.]+)", (ROOT / "requirements.txt").read_text("utf-8"), re.MULTILINE)
+        assert pinned is not None and f"{name} {pinned[1]}" in locked[1], name

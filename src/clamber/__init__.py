@@ -4,7 +4,9 @@ What stands in `__all__` is stable: it changes in major versions only, and the c
 asked for, so that `import clamber` is quick. SI units and radians; shapes and frames stand in each docstring.
 """
 
+import sys
 from importlib import import_module
+from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
@@ -12,13 +14,19 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from .api.comparing import compare as compare
     from .api.drawing import draw as draw
+    from .api.mapping import reach as reach
+    from .api.mapping import sweep as sweep
+    from .api.opening import load_world as load_world
     from .api.planning import answer as answer
     from .api.planning import check as check
-    from .api.planning import find_openings as find_openings
+    from .api.planning import explain_infeasibility as explain_infeasibility
     from .api.planning import inspect as inspect
     from .api.planning import load_plan as load_plan
     from .api.planning import plan as plan
     from .api.running import run as run
+    from .api.trying import rehearse as rehearse
+    from .api.trying import trials as trials
+    from .api.viewing import view as view
     from .errors import ClamberError as ClamberError
     from .families.climber.world.library import load_board as load_board
     from .families.walker.planning.walks import load_walk as load_walk
@@ -51,9 +59,15 @@ _PLACES = {
     "load_robot": "tasks.robots",
     "load_task": "tasks.library",
     "load_walk": "families.walker.planning.walks",
+    "load_world": "api.opening",
     "plan": "api.planning",
     "pose_problem": "planning.problem.problems",
+    "reach": "api.mapping",
+    "rehearse": "api.trying",
     "run": "api.running",
+    "sweep": "api.mapping",
+    "trials": "api.trying",
+    "view": "api.viewing",
 }
 
 __all__ = [
@@ -76,10 +90,27 @@ __all__ = [
     "load_robot",
     "load_task",
     "load_walk",
+    "load_world",
     "plan",
     "pose_problem",
+    "reach",
+    "rehearse",
     "run",
+    "sweep",
+    "trials",
+    "view",
 ]
+
+
+class _Package(ModuleType):
+    """What is offered keeps its name where a folder has it, too: `clamber.trials` is the function, whoever imports from the folder."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name not in _PLACES or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
 
 
 def __getattr__(name: str) -> Any:

@@ -32,6 +32,11 @@ def describe_choices(name: str, known: Iterable[str], limit: int = 40) -> str:
     return f"{listed or '(nothing)'}{hint}"
 
 
+def how_to_install(extra: str) -> str:
+    """The command that installs one of Clamber's extras; it is not on a package index, so from a clone."""
+    return f'pip install ".[{extra}]" in a clone of Clamber'
+
+
 class ClamberError(Exception):
     """Base of every error that Clamber raises for bad input."""
 

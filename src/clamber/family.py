@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .exports.joint_trajectory import Trajectories
     from .files import Document
     from .inspection.finding import Inspection
-    from .planning.openings.relaxations import Relaxation
+    from .planning.infeasibility.relaxations import Relaxation
     from .planning.problem.check import Check
     from .planning.problem.plan_source import OpenedPlan
     from .planning.problem.problems import PlanFamily
@@ -31,7 +31,8 @@ if TYPE_CHECKING:
     from .tasks.imported import ImportedRobot
     from .tasks.task_format import TaskFormat
     from .trials.dynamics import Dynamics
-    from .viewing.browser.exhibit import Scenes
+    from .types import Json
+    from .viewing.browser.viewer_content import Scenes
     from .viewing.pictures import Pictures
 
     Import = Callable[[Path, Path, str], ImportedRobot]
@@ -96,6 +97,8 @@ class Family:
     """Commands that only it has: name -> module and function in it, such as "package.module:function"."""
     groups: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """The same for commands of commands: name -> module and Typer application in it."""
+    starters: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """The same for commands under `clamber new`: kind of file -> module and function in it."""
     parts: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Which of the following it has, and where: name -> module and what it is called there, such as "package.module:FILES"."""
     files: Part[TaskFormat] = Part()
@@ -124,6 +127,8 @@ class Family:
     """One limb of a robot for the limb bench, by name, by its place from 1 or None: the first; `upright` says whether weight acts."""
     model: Part[Callable[[Any], tuple[Any, Mapping[str, JointBounds]]] | None] = Part()
     """The robot alone as an `MjSpec`, and the bounds of its joints."""
+    first_task: Part[Callable[[str, str, str, Sequence[str]], Json] | None] = Part()
+    """What a task file says, of names or files of a robot and a world, the task's name, and overrides; climbers have another way."""
     imports: Part[Mapping[str, Import] | None] = Part()
     """Suffix of another program's model file, such as ".urdf" -> what makes a robot of one."""
 

@@ -229,7 +229,7 @@ def _sample(kind: Any) -> Any:
     if get_origin(bare) is tuple:
         inner = get_args(bare)
         return [_sample(each) for each in inner if each is not Ellipsis] if Ellipsis not in inner else []
-    if get_origin(bare) is dict:
+    if get_origin(bare) in {dict, Mapping}:
         return {}
     return {bool: True, int: 1, str: ""}.get(bare, "")
 
@@ -270,7 +270,7 @@ def allowed(kind: Any) -> str:
         return f"one of {', '.join(toml_value(word) for word in get_args(bare))}"
     if get_origin(bare) is tuple:
         return _tuple_words(get_args(bare))
-    if get_origin(bare) is dict:
+    if get_origin(bare) in {dict, Mapping}:
         return f"a table of names, each with {allowed(get_args(bare)[1])}"
     if get_origin(bare) in {typing.Union, types.UnionType}:
         return " or ".join(allowed(each) for each in get_args(bare))

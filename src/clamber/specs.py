@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 
 from .errors import SpecError, describe_choices
 from .files import Document, element_names
+from .notebook import OneLine
 from .types import Json
 from .units import QUANTITY_KEYS
 
@@ -27,7 +28,7 @@ Name = Annotated[str, StringConstraints(strict=True, pattern=r"^[A-Za-z][A-Za-z0
 @dataclass_transform(kw_only_default=True, frozen_default=True)
 def spec(cls: type[T]) -> type[T]:
     """Makes a class a frozen, slotted, keyword-only dataclass whose file may have no keys but its fields."""
-    made = dataclass(frozen=True, slots=True, kw_only=True)(cls)
+    made = dataclass(frozen=True, slots=True, kw_only=True, repr=not issubclass(cls, OneLine))(cls)
     made.__pydantic_config__ = ConfigDict(extra="forbid")  # type: ignore[attr-defined]
     return made
 

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 
 from clamber.benchmarks.rows import Row
 from clamber.benchmarks.walls import sampled_stances, wall_rows
-from clamber.cli.app import main
+from clamber.cli import main
 from clamber.errors import PlannerError, SpecError
 from clamber.families.climber.planning.crowding import most_covered
 from clamber.families.climber.planning.place_costs import way_fields

@@ -21,7 +21,7 @@ from clamber.execution.log_roles import samples_of
         (lambda: clamber.plan("ladder", "beam", width="wide"), "width: 'wide' is not what it takes"),
         (lambda: clamber.plan(3), "task: 3 is no task"),  # type: ignore[arg-type]
         (lambda: clamber.check(3), "what: 3 is no plan"),  # type: ignore[arg-type]
-        (lambda: clamber.find_openings(None), "task: None is no task"),  # type: ignore[arg-type]
+        (lambda: clamber.explain_infeasibility(None), "task: None is no task"),  # type: ignore[arg-type]
     ],
 )
 def test_a_wrong_argument_is_named(call: Any, named: str) -> None:

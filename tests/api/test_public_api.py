@@ -34,7 +34,24 @@ def test_every_name_is_there_and_has_a_docstring(name: str) -> None:
         assert thing is getattr(clamber, name)
 
 
-@pytest.mark.parametrize("name", ["answer", "check", "compare", "draw", "find_openings", "inspect", "plan", "run"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "answer",
+        "check",
+        "compare",
+        "draw",
+        "find_openings",
+        "inspect",
+        "plan",
+        "reach",
+        "rehearse",
+        "run",
+        "sweep",
+        "trials",
+        "view",
+    ],
+)
 def test_every_function_tells_its_arguments(name: str) -> None:
     function = getattr(clamber, name)
     told = python_inspect.getdoc(function) or ""

@@ -90,7 +90,7 @@ def test_check_of_a_plan_that_holds_leaves_with_0(run: Any) -> None:
     told = answer.json
     assert (told["ok"], told["steps"], told["first_violation"], told["reached"]) == (True, 63, None, True)
     assert told["max_torque_oz_in"] == pytest.approx(648, rel=0.005)
-    assert set(told["final"]) == {"x_in", "y_in", "theta_deg", "holds"}
+    assert set(told["final"]) == {"x_in", "y_in", "theta_deg", "holds", "pose"}
     assert set(told["per_step"][0]) >= {"step", "action", "ok", "reason", "hold", "max_torque_oz_in"}
     assert [row["action"] for row in told["per_step"]][:4] == [0, 106, 301, 205]
     assert told["per_step"][1]["hold"] == 6

@@ -67,14 +67,14 @@ class Compiling(Event):
 def test_compilation_is_told_of_while_kernels_come_and_not_longer(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    output._tell_compilation(tmp_path, output.stderr(), every=0.0, ended=Compiling(tmp_path, [0, 2, 3, 1, 0, 0]))
+    output._tell_compilation(tmp_path, every=0.0, ended=Compiling(tmp_path, [0, 2, 3, 1, 0, 0]))
     lines = capsys.readouterr().err.splitlines()
     assert [line.split()[0] for line in lines] == ["compiling", "5", "6"]
 
 
 def test_nothing_is_told_where_nothing_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "module.replay-1.py311.1.nbc").write_bytes(b"")
-    output._tell_compilation(tmp_path, output.stderr(), every=0.0, ended=Compiling(tmp_path, [0, 0, 0]))
+    output._tell_compilation(tmp_path, every=0.0, ended=Compiling(tmp_path, [0, 0, 0]))
     output.announce_compilation(quiet=True)
     assert capsys.readouterr().err == ""
 

@@ -10,7 +10,7 @@ from clamber.cli.run.options import RunOptions
 from clamber.cli.trials.command import TrialsOptions
 from clamber.family import family_named
 from clamber.tasks import load_task
-from clamber.terminal.crew import CrewWords
+from clamber.terminal.worker_options import WorkerOptions
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))
@@ -20,7 +20,7 @@ OF_TRIALS = (("--no-replan",), ("--force",))
 
 def test_every_one_of_them_is_an_option() -> None:
     of_run = {field.name for field in fields(RunOptions)}
-    of_trials = {field.name for holder in (TrialsOptions, CrewWords) for field in fields(holder)}
+    of_trials = {field.name for holder in (TrialsOptions, WorkerOptions) for field in fields(holder)}
     walker = family_named("walker")
     assert walker.dynamics is not None
     for work in (load_task("terrace-walk"), walker.other_work("level-walk")):

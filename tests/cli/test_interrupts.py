@@ -1,27 +1,279 @@
-"""Ctrl-C in commands that take long, as a terminal sends it: to a real process that does not ignore it."""
+"""Ctrl-C in commands that take long, as a terminal sends it: to a real group of processes that do not ignore it."""
 
+import os
+import random
+import re
+import shlex
 import signal
+import sqlite3
 import subprocess
 import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
+import typer
+
+from clamber import interrupts
+from clamber.terminal.output import stderr
+from clamber.terminal.worker_options import EndsLine, keeping
 
 SCRIPT = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); from clamber.cli import main; main()"
 """A shell that starts a process with "&" has it ignore SIGINT; one in the foreground does not."""
-
-
-@pytest.mark.parametrize(
-    ("words", "said"), [(("run", "ladder"), "nothing has moved"), (("plan", "ladder", "--to-run"), "")]
+SOON = 2.0
+"""How soon after the signal a command has ended [s], on a machine that does nothing else. Where more processes compute than there are
+cores, each gets a part of one, and so many times longer it may take: the load of a core, if above 1."""
+PYTHON = 0.3
+"""Until then Python itself starts, and nothing of ours runs [s]."""
+MOMENTS = 10
+"""Of each command, drawn between `PYTHON` and `LATEST`, with the command as the seed."""
+LATEST = 12.0
+LONG = (
+    "plan h --planner genetic --evaluations 1000000",
+    "plan circle --planner exact --stances 20000000",
+    "plan circle --planner hybrid",
+    "plan circle --planner mcts",
+    "plan ladder --to-run",
+    "polish examples/across/plan.json",
+    "learn circle",
+    "run circle",
+    "run ladder-hand",
+    "run slope-walk",
+    "trials ladder-hand -n 100",
+    "rehearse ladder-hand",
+    "reach h --hangs",
+    "sweep ladder --vary board.spacing=8in..24in:60",
+    "study bevly-1997",
+    "bench exact seeds",
+    "bench boards",
+    "limb tune",
+    "limb sweep --vary backlash=0deg..4deg:30",
+    "limb step --flaws nominal --trials 400",
+    "body push --trials 400",
+    "most level-walk --vary payload=10kg..26kg:17",
 )
-def test_an_interrupt_while_a_plan_is_searched_for_ends_the_command(words: tuple[str, ...], said: str) -> None:
-    command = [sys.executable, "-c", SCRIPT, *words]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
-        assert process.stdout is not None and process.stderr is not None
-        told = process.stderr.readline()
-        while "stances" not in told:  # compiling may come first
-            assert told, "it ended before it searched"
-            told = process.stderr.readline()
-        process.send_signal(signal.SIGINT)
-        out, err = process.communicate(timeout=120)
-    assert process.returncode == 130
-    assert out == "" and said in err and "Traceback" not in err
+"""At what takes minutes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """One that runs."""
+
+    process: "subprocess.Popen[str]"
+    folder: Path
+
+    @property
+    def out(self) -> str:
+        return (self.folder / "out").read_text()
+
+    @property
+    def err(self) -> str:
+        return (self.folder / "err").read_text()
+
+    def wait_for(self, told: str) -> None:
+        while re.search(told, self.err) is None:
+            assert self.process.poll() is None, self.err
+            time.sleep(0.05)
+
+    def interrupt(self, when: str) -> None:
+        """Press Ctrl-C: it ends soon with 130, says so, and leaves no process behind."""
+        limit = SOON * max(1.0, os.getloadavg()[0] / (os.cpu_count() or 1))
+        os.killpg(self.process.pid, signal.SIGINT)
+        sent = time.monotonic()
+        code = self.process.wait(120)
+        took = time.monotonic() - sent
+        told = f"interrupted {when}: ended with {code} after {took:.2f} s\n{self.err[-2000:]}"
+        assert code == 130 and took < limit, told
+        assert "Traceback" not in self.err and "Exception ignored" not in self.err, told
+        assert self.err.endswith("clamber: interrupted\n"), told
+        while alive(self.process.pid):
+            assert time.monotonic() < sent + limit + 5.0, f"processes are left, {told}"
+            time.sleep(0.05)
+
+
+def alive(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+@contextmanager
+def running(words: str, folder: Path) -> Iterator[Command]:
+    environment = os.environ | {"COLUMNS": "400"}  # no line is broken
+    with (folder / "out").open("w") as out, (folder / "err").open("w") as err:
+        process = subprocess.Popen(
+            [sys.executable, "-c", SCRIPT, *shlex.split(words)],
+            stdin=subprocess.DEVNULL, stdout=out, stderr=err, text=True, env=environment, start_new_session=True,
+        )  # fmt: skip
+    try:
+        yield Command(process, folder)
+    finally:
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("words", LONG)
+def test_an_interrupt_at_any_moment_ends_it_soon(words: str, tmp_path: Path) -> None:
+    drawn = random.Random(words)
+    for number in range(MOMENTS):
+        moment = drawn.uniform(PYTHON, LATEST)
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        with running(words, folder) as command:
+            time.sleep(moment)
+            assert command.process.poll() is None, f"it takes less than {moment:.1f} s: {command.out}"
+            command.interrupt(f"after {moment:.2f} s")
+            for store in named_stores(command.err):
+                store.unlink()
+
+
+def named_stores(err: str) -> list[Path]:
+    """The files in which an interrupted command says that it has kept what had ended, and that are its own."""
+    return [path for path in map(Path, re.findall(r"--store (\S+) --resume", err)) if path.parent.name == "unfinished"]
+
+
+def results_in(store: Path) -> int:
+    with sqlite3.connect(store) as file:
+        return int(file.execute("SELECT count(*) FROM items WHERE result IS NOT NULL").fetchone()[0])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "first"),
+    [
+        ("sweep ladder --vary board.spacing=12in..24in:60 --workers 1", r"\n[1-9]\d* of 60 points"),
+        ("limb sweep --scenario step --vary kp=1000..5000:21 -c scct --workers 1", r"\n[1-9]\d* of 21 points"),
+        ("limb tune scct --workers 1", r"\n[1-9]\d* of 10 searches"),
+    ],
+)
+def test_a_batch_that_is_interrupted_goes_on_where_it_was(words: str, first: str, tmp_path: Path) -> None:
+    with running(words, tmp_path) as command:
+        command.wait_for(first)
+        command.interrupt("after the first item")
+        (store,) = named_stores(command.err)
+        ended = re.search(r"interrupted after (\d+) of", command.err)
+        assert ended is not None and results_in(store) >= int(ended[1]) >= 1
+    again = tmp_path / "again"
+    again.mkdir()
+    try:
+        with running(f"{words} --store {store} --resume", again) as command:
+            command.wait_for(first)
+            command.interrupt("after it went on")
+            now = re.search(r"interrupted after (\d+) of", command.err)
+            assert now is not None and int(now[1]) > int(ended[1])
+    finally:
+        store.unlink()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("words", "first", "kept"),
+    [
+        ("study bevly-1997", r"\n4 of 43", r"3 of 43 results: .*\n"),
+        ("trials ladder-hand -n 100 --workers 1", r"\n1 of 100", r"of 1 climbs"),
+        ("rehearse ladder-hand -n 2 --noise peg_error=15mm", r"of 2 climbs; 0 changes", r"of 2 climbs before"),
+        ("reach h --hangs", r"\d\d\d\d+ stances", r"incomplete: interrupted"),
+        ("plan circle --planner exact --stances 20000000", r"\d\d\d\d+ stances", r"bounded: no plan"),
+        ("bench control seeds", r"seeds each", r"us  "),
+    ],
+)
+def test_what_there_is_is_told(words: str, first: str, kept: str, tmp_path: Path) -> None:
+    with running(words, tmp_path) as command:
+        command.wait_for(first)
+        command.interrupt("on the way")
+        assert re.search(kept, command.out), command.out
+
+
+@pytest.mark.parametrize(("words", "said"), [("run ladder", "nothing has moved"), ("plan ladder --to-run", "")])
+def test_an_interrupt_while_a_plan_is_searched_for_ends_the_command(words: str, said: str, tmp_path: Path) -> None:
+    with running(words, tmp_path) as command:
+        command.wait_for("stances")  # compiling may come first
+        command.interrupt("in the search")
+        assert command.out == "" and said in command.err
+
+
+@pytest.fixture
+def listens() -> Iterator[None]:
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    with interrupts.listening():
+        yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("listens")
+def test_an_interrupt_that_was_lost_comes_again_until_it_is_answered() -> None:
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    assert interrupts.asked()
+    with pytest.raises(KeyboardInterrupt):
+        time.sleep(10.0 * interrupts.AGAIN)
+    interrupts.answer()
+    time.sleep(2.0 * interrupts.AGAIN)  # nothing comes any more
+    assert interrupts.asked()
+
+
+@pytest.mark.usefixtures("listens")
+def test_an_interrupt_that_no_caller_could_be_given_is_not_told_but_comes_again(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    class Lost:
+        def __del__(self) -> None:  # Python can't raise what is raised here
+            signal.raise_signal(signal.SIGINT)
+
+    lost = Lost()
+    with pytest.raises(KeyboardInterrupt):
+        del lost
+        time.sleep(10.0 * interrupts.AGAIN)
+    interrupts.answer()
+    assert capfd.readouterr().err == ""
+
+
+@pytest.mark.usefixtures("listens")
+def test_parts_of_a_whole_do_not_answer_but_pass_it_on() -> None:
+    with pytest.raises(KeyboardInterrupt), interrupts.passed_on():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt:
+            interrupts.answer()
+    with pytest.raises(KeyboardInterrupt):  # nobody has answered
+        time.sleep(10.0 * interrupts.AGAIN)
+    interrupts.answer()
+
+
+def test_a_long_call_answers_and_raises_as_if_it_had_no_thread_of_its_own() -> None:
+    assert interrupts.abandonable(lambda: 3) == 3
+    with pytest.raises(ZeroDivisionError):
+        interrupts.abandonable(lambda: 1 // 0)
+
+
+@pytest.mark.parametrize("ended", [0, 2])
+def test_a_batch_has_a_file_of_its_own_that_stays_where_something_in_it_would_be_lost(
+    ended: int, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with keeping(None, EndsLine(stderr(), "points", quiet=False)) as whole:
+        assert whole.store is not None
+        whole.store.touch()
+    assert not whole.store.exists()
+    with pytest.raises(typer.Exit) as left, keeping(None, EndsLine(stderr(), "points", quiet=True)) as batch:
+        assert batch.store is not None
+        batch.store.touch()
+        for each in range(ended):
+            batch.line.update(each + 1, 5)
+        raise KeyboardInterrupt
+    told = " ".join(capfd.readouterr().err.split())
+    assert left.value.exit_code == 130
+    assert batch.store.exists() is (ended > 0)
+    if ended:
+        assert (
+            f"interrupted after 2 of 5 points; they are kept, and this goes on with them: --store {batch.store}" in told
+        )
+        batch.store.unlink()
+    else:
+        assert "interrupted before any of the points had ended" in told

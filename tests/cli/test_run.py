@@ -9,7 +9,7 @@ import pytest
 
 from clamber.execution.log_files import read_log
 from clamber.families.climber.execution.climb_trace import ClimbTrace
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan, load_plan

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from clamber.families.climber.pictures.alone import climber_alone
+from clamber.families.climber.pictures.pictures import climber_alone
 from clamber.families.climber.robot.robot import build_limbed
 from clamber.tasks.robots import read_robot
-from clamber.viewing.browser.exhibit import open_exhibit
+from clamber.viewing.browser.viewer_content import open_exhibit
 
 Clamber = Callable[..., tuple[int, str, str]]
 

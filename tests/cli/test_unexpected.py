@@ -44,12 +44,12 @@ def test_what_needs_more_memory_than_there_is_is_told(clamber: Clamber, monkeypa
     ("words", "said"),
     [
         ("plan ladder --seed 9223372036854775808", "random numbers take seeds of 63 bits"),
-        ("polish ladder-hand --width 1000000000000", "every stance of a breadth is kept in memory"),
+        ("shorten ladder-hand --width 1000000000000", "every stance of a breadth is kept in memory"),
         ("trials ladder -n 1000000000", "a million climbs take"),
         ("plan ladder --islands 1000000", "each is a process and a population"),
         ("limb step --seconds nan", "nan is not a finite number"),
         ("limb circle --lap inf", "inf is not a finite number"),
-        ("press --seconds 1000000", "every sample is kept in memory"),
+        ("hold-force --seconds 1000000", "every sample is kept in memory"),
         ("inventory ladder --length 100000000", "more digits than anybody reads"),
     ],
 )

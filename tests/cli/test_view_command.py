@@ -42,7 +42,7 @@ def test_json_says_where_the_page_is(clamber: Clamber) -> None:
 
 def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
     from clamber.viewing.browser.app import App
-    from clamber.viewing.browser.exhibit import open_exhibit
+    from clamber.viewing.browser.viewer_content import open_exhibit
 
     app = App(open_exhibit(["gap"]))
     try:
@@ -57,7 +57,7 @@ def test_page_answers_on_loopback(monkeypatch: pytest.MonkeyPatch) -> None:
 def opened(request: pytest.FixtureRequest) -> Iterator[tuple[str, str, str]]:
     """A viewer, for this machine and exposed: its host with port, its token, the cookie that its page sets."""
     from clamber.viewing.browser.app import App
-    from clamber.viewing.browser.exhibit import open_exhibit
+    from clamber.viewing.browser.viewer_content import open_exhibit
 
     app = App(open_exhibit(["gap"]), host=request.param)
     try:
@@ -101,7 +101,7 @@ def version() -> Subprotocol:
 
 def test_a_name_of_others_that_leads_to_this_machine_is_refused() -> None:
     from clamber.viewing.browser.app import App
-    from clamber.viewing.browser.exhibit import open_exhibit
+    from clamber.viewing.browser.viewer_content import open_exhibit
 
     app = App(open_exhibit(["gap"]))
     try:
@@ -183,7 +183,7 @@ def test_missing_package_is_named(clamber: Clamber, monkeypatch: pytest.MonkeyPa
     monkeypatch.setattr(sys, "meta_path", [Absent(), *sys.meta_path])
     code, _, err = clamber("view", "ladder")
     assert code == 2
-    assert 'pip install "clamber[view]"' in err
+    assert 'pip install ".[view]"' in err
 
 
 def test_saved_page_is_whole_and_names_no_other(clamber: Clamber, tmp_path: Path) -> None:

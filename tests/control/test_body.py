@@ -15,8 +15,8 @@ from clamber.families.climber.control.body import (
     LIMIT_THESIS,
     THESIS,
     along_grab,
-    command_tips,
-    share_wrench,
+    command_contact_forces,
+    distribute_wrench,
 )
 from clamber.families.climber.control.body_estimate import ENCODER, LINE, SECOND_TIP, estimate_body
 from clamber.families.climber.control.hook_forces import MOST_CUTS
@@ -112,7 +112,7 @@ def test_a_hold_higher_than_the_second_tip_can_be_gives_the_angle_that_comes_nea
 @given(st.tuples(*[st.floats(-50, 50)] * 3).map(np.array))
 def test_the_shared_forces_add_up_to_the_wrench(held: tuple[int, ...], wrench: Floats) -> None:
     forces = np.zeros((3, 2))
-    share_wrench(np.array(held), HOLDS, wrench, forces)
+    distribute_wrench(np.array(held), HOLDS, wrench, forces)
     moment = sum(r[0] * f[1] - r[1] * f[0] for r, f in zip(HOLDS, forces, strict=True))
     np.testing.assert_allclose((*forces.sum(axis=0), moment), wrench, atol=1e-9)
     assert not forces[np.array(held) == 0].any()
@@ -120,7 +120,7 @@ def test_the_shared_forces_add_up_to_the_wrench(held: tuple[int, ...], wrench: F
 
 def test_two_limbs_share_a_weight_as_the_thesis_says() -> None:
     forces = np.zeros((3, 2))
-    share_wrench(BOTH, HOLDS, np.array((0.0, 40.0, 0.0)), forces)
+    distribute_wrench(BOTH, HOLDS, np.array((0.0, 40.0, 0.0)), forces)
     rx1, rx2 = HOLDS[0, 0], HOLDS[1, 0]
     np.testing.assert_allclose(forces[:2], ((0.0, -40 * rx2 / (rx1 - rx2)), (0.0, 40 * rx1 / (rx1 - rx2))), atol=1e-12)
 
@@ -132,7 +132,7 @@ def _command(limit: int, wanted: Floats, *, mapping: int = THESIS) -> tuple[Floa
     fed = np.array((0.0, 38.0, 0.0))
     drags, cuts = np.zeros((3, 2)), np.zeros((MOST_CUTS, 2))
     least = np.full(3, 0.3)
-    command_tips(LEGS, q, BOTH, pose, HOLDS, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces)
+    command_contact_forces(LEGS, q, BOTH, pose, HOLDS, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces)
     return q, pulls, forces
 
 

@@ -30,8 +30,8 @@ from clamber.families.walker.control.track import (
     seen_from,
     straight,
     through,
-    toward,
     turn_about,
+    twist_between,
 )
 from clamber.families.walker.control.walker_balance import mass_centre, mass_moment
 from clamber.families.walker.robot import TwoFrames, WalkerRobot
@@ -96,10 +96,10 @@ def test_tracks_go_where_they_say() -> None:
 
 @given(POSE, POSE)
 def test_a_twist_toward_a_pose_goes_there(a: Floats, b: Floats) -> None:
-    there = compose(a, along_twist(toward(a, b), 1.0))
+    there = compose(a, along_twist(twist_between(a, b), 1.0))
     np.testing.assert_allclose(there[:2], b[:2], atol=1e-9)
     assert math.remainder(there[2] - b[2], math.tau) == pytest.approx(0.0, abs=1e-12)
-    assert abs(toward(a, b)[2]) <= math.pi
+    assert abs(twist_between(a, b)[2]) <= math.pi
 
 
 @given(st.lists(POSE, min_size=1, max_size=8), st.sampled_from((0.0, 0.05, 0.3)))

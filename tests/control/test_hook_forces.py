@@ -12,7 +12,7 @@ from clamber.families.climber.control.hook_forces import (
     MOST_CUTS,
     WISHED_CONE,
     WISHED_PULL,
-    best_within,
+    max_min_solution,
     pair_forces,
 )
 from clamber.families.climber.control.limb_chain import legs_of
@@ -73,7 +73,7 @@ def test_the_best_worst_cut_is_that_of_a_linear_programme(seed: int, count: int)
     rng = np.random.default_rng(seed)
     cuts = np.stack((rng.normal(0.0, 20.0, count), rng.normal(0.0, 1.0, count)), axis=1)
     cuts[0, 1], cuts[1, 1] = abs(cuts[0, 1]) + 0.1, -abs(cuts[1, 1]) - 0.1
-    lam, least = best_within(cuts, count, 3.0)
+    lam, least = max_min_solution(cuts, count, 3.0)
     assert abs(least - (cuts[:, 0] + cuts[:, 1] * lam).min()) < 1e-9
     # greatest t with c + d lambda >= t
     rows = np.stack((-cuts[:, 1], np.ones(count)), axis=1)

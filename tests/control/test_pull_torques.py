@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from clamber.families.climber.control.backlash import follow_play, pull_torques
 from clamber.families.climber.control.limb_chain import chain_of_limb
-from clamber.families.climber.control.play import follow_play, pull_torques
 from clamber.families.climber.execution.whole_body import WholeBody
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.tasks.robots import load_robot

@@ -20,13 +20,13 @@ def robot_named(name: str) -> LimbedRobot:
     return robot
 
 
-def repelled(robot: LimbedRobot, i: int, angles: Floats, doing: str = "joints") -> tuple[Floats, float]:
+def repelled(robot: LimbedRobot, i: int, angles: Floats, mode: str = "swing_joint") -> tuple[Floats, float]:
     """Torques that the potential adds to limb `i`, and its gap [m]; the other limbs hold."""
     torques = []
     for strength in (STRENGTH, 0.0):
         body = WholeBody(robot, period=0.005, gains=BodyGains(potential=strength, potential_range=RANGE))
         for k, task in enumerate(body.tasks):
-            task.doing = "cling" if k != i else doing  # type: ignore[assignment]
+            task.mode = "unloaded_contact" if k != i else mode  # type: ignore[assignment]
             task.angles = angles.copy()
         body.see(np.tile(angles, (body.n, 1)), np.zeros((body.n, 2)), 0.3, 0.0)
         torques.append(body.command().copy())
@@ -81,6 +81,6 @@ def test_a_limb_folded_into_the_body_is_pushed_out_with_no_more_than_the_most() 
 def test_limbs_that_push_at_a_hold_or_have_no_potential_are_as_they_were() -> None:
     robot = robot_named("libra")
     angles = np.array((0.0, math.pi - 0.05))
-    assert repelled(robot, 0, angles, "joints")[0].any()
-    assert not repelled(robot, 0, angles, "pull")[0].any()
+    assert repelled(robot, 0, angles, "swing_joint")[0].any()
+    assert not repelled(robot, 0, angles, "contact_push")[0].any()
     assert BodyGains().potential == 0.0

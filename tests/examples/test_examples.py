@@ -90,6 +90,17 @@ def test_an_own_planner_finds_a_plan_that_holds(tmp_path: Path) -> None:
     assert "carried out again: OK" in out and best <= found <= best + 5
 
 
+@pytest.mark.slow
+def test_a_robot_in_space_climbs_an_overhang_until_its_grips_are_too_weak(tmp_path: Path) -> None:
+    out = run("08_robot_in_space.py", tmp_path)
+    assert ": 0 odd" in out
+    assert re.search(r"^found: \d+ actions$", out, re.MULTILINE) and "checked again: OK" in out
+    grip = re.search(r"least grip left (\S+) N", out)
+    assert grip is not None and float(grip[1]) > 0.0
+    assert re.search(r"^9 N: .*violate .equilibrium", out, re.MULTILINE)
+    assert (tmp_path / "overhang.png").stat().st_size > 20_000
+
+
 def test_the_own_planner_plans_for_walkers_too() -> None:
     import runpy
 

@@ -6,10 +6,10 @@ import numpy as np
 
 from clamber.control.controller import still_aim
 from clamber.families.climber.control import body_tick as at
-from clamber.families.climber.control.body import command_tips, drag_tips
+from clamber.families.climber.control.backlash import follow_play, pull_torques, weight_loads, weight_moment
+from clamber.families.climber.control.body import command_contact_forces, drag_tips
 from clamber.families.climber.control.body_estimate import ENCODER, estimate_body
 from clamber.families.climber.control.hook_forces import MOST_CUTS
-from clamber.families.climber.control.play import follow_play, pull_torques, weight_loads, weight_moment
 from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.whole_body import LOAD_TIME, WholeBody
@@ -45,13 +45,13 @@ class PlainBody(WholeBody):
             wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
         fed = gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
         for i, task in enumerate(self.tasks):
-            if task.doing == "pull":
+            if task.mode == "contact_push":
                 arm = self.tip(i) - self.settled[:2]
                 fed += (*task.tug, arm[0] * task.tug[1] - arm[1] * task.tug[0])
 
         def share(held: Floats) -> tuple[Floats, Floats]:
             pulls, forces = np.zeros((n, 2)), np.zeros((n, 2))
-            command_tips(
+            command_contact_forces(
                 self.legs, self.q, held, self.pose, arms, wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit],
                 np.full(n, gains.alpha), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
             )  # fmt: skip
@@ -66,9 +66,9 @@ class PlainBody(WholeBody):
         pressed, loads = np.zeros(n, np.int64), self._arrays[at.LOADS]
         for i, task in enumerate(self.tasks):
             torques, now = self.torques[i], np.zeros(2)
-            if task.doing == "hold":
+            if task.mode == "stance":
                 self._pull(i, pulls[i], forces[i])
-            elif task.doing == "cling":
+            elif task.mode == "unloaded_contact":
                 force = gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i))
                 pull_torques(
                     self.legs[i],
@@ -82,7 +82,7 @@ class PlainBody(WholeBody):
                     now,
                 )
                 loads[i] += self.period / LOAD_TIME * (now - loads[i])
-            elif task.doing == "pull":
+            elif task.mode == "contact_push":
                 pull_torques(
                     self.legs[i],
                     self.q[i],
@@ -95,13 +95,13 @@ class PlainBody(WholeBody):
                     now,
                 )
                 loads[i] += self.period / LOAD_TIME * (now - loads[i])
-            elif task.doing == "tip":
+            elif task.mode == "swing_cartesian":
                 self._reach(i, task)
             else:
                 torques[:] = self.chains[i].joints["share"] * (
                     gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
                 )
-                if task.doing == "hang":
+                if task.mode == "hang":
                     torques += task.loads
                 else:
                     leg = self.legs[i]
@@ -110,8 +110,8 @@ class PlainBody(WholeBody):
                     )
                     torques += weight_loads(leg, self.q[i], self.pose[2]) + rotors * task.accelerations
                     torques += wet * task.rates + dry * np.tanh(task.rates / at.MOVING)
-            pressed[i] = task.doing == "cling" or (task.doing == "pull" and task.pressed)
-            if task.doing in ("pull", "cling"):
+            pressed[i] = task.mode == "unloaded_contact" or (task.mode == "contact_push" and task.pressed)
+            if task.mode in ("contact_push", "unloaded_contact"):
                 most = gains.firm if task.pressed else gains.gentle
                 np.clip(torques, -most, most, out=torques)
         follow_play(

@@ -25,11 +25,11 @@ def slip(seed: int) -> tuple[str, Knocked]:
 
     def due(climber: TracedClimber) -> bool:
         nonlocal left
-        doing = [task.doing for task in climber.body.tasks]
-        if doing.count("hold") != 2 or "cling" in doing or "pull" in doing:
+        mode = [task.mode for task in climber.body.tasks]
+        if mode.count("stance") != 2 or "unloaded_contact" in mode or "contact_push" in mode:
             return False
         left -= 1
-        climb.limb = [i for i, what in enumerate(doing) if what == "hold"][which]
+        climb.limb = [i for i, what in enumerate(mode) if what == "stance"][which]
         return left < 0
 
     climb = Knocked(seed, when=due)

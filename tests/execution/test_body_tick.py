@@ -14,7 +14,7 @@ from clamber.control.law_settings import LAWS
 from clamber.families.climber.control.body_estimate import ENCODER
 from clamber.families.climber.control.body_tick import command_tick, see_tick
 from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS, BodyGains
-from clamber.families.climber.execution.limb_task import Doing, LimbTask
+from clamber.families.climber.execution.limb_task import LimbMode, LimbTask
 from clamber.families.climber.execution.whole_body import BENT, STOP, WholeBody
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.tasks.robots import load_robot
@@ -31,16 +31,16 @@ def robot_named(name: str) -> LimbedRobot:
 def busy_pair(robot: LimbedRobot, gains: BodyGains, rng: np.random.Generator) -> tuple[WholeBody, PlainBody]:
     """Two bodies that are to do the same things: each limb something else, two of them holding where they can."""
     pair = WholeBody(robot, period=PERIOD, gains=gains), PlainBody(robot, period=PERIOD, gains=gains)
-    doings = ["hold", "hold", *rng.choice(get_args(Doing), pair[0].n - 2)]
-    rng.shuffle(doings)
+    modes = ["stance", "stance", *rng.choice(get_args(LimbMode), pair[0].n - 2)]
+    rng.shuffle(modes)
     numbers = rng.normal(size=(pair[0].n, 6, 2))
     for body in pair:
-        for i, doing in enumerate(doings):
+        for i, mode in enumerate(modes):
             place, speed, angles, rates, force, tug = numbers[i] * np.array([[0.3], [0.1], [1.0], [1.0], [10.0], [5.0]])
             pressed = bool(numbers[i, 0, 0] > 0.0)
             loads = numbers[i, 0] + numbers[i, 1]
             body.tasks[i] = LimbTask(
-                doing,
+                mode,
                 i + 1,
                 place,
                 speed,
@@ -95,13 +95,13 @@ def test_every_law_of_the_limb_bench_serves_the_body(law: str) -> None:
         assert_alike(pair)
 
 
-@pytest.mark.parametrize("doing", get_args(Doing))
-def test_so_do_limbs_that_all_do_the_same(doing: Doing) -> None:
+@pytest.mark.parametrize("mode", get_args(LimbMode))
+def test_so_do_limbs_that_all_do_the_same(mode: LimbMode) -> None:
     rng = np.random.default_rng(6)
     pair = busy_pair(robot_named("libra"), BodyGains(), rng)
     for body in pair:
         for task in body.tasks:
-            task.doing = doing
+            task.mode = mode
     for _ in range(3):
         tick_both(pair, rng)
         assert_alike(pair)
@@ -111,8 +111,8 @@ def test_so_it_does_while_the_load_passes_on() -> None:
     rng = np.random.default_rng(7)
     pair = busy_pair(robot_named("libra"), BodyGains(), rng)
     for body in pair:
-        for task, doing in zip(body.tasks, ("hold", "hold", "cling"), strict=True):
-            task.doing = doing  # type: ignore[assignment]
+        for task, mode in zip(body.tasks, ("stance", "stance", "unloaded_contact"), strict=True):
+            task.mode = mode  # type: ignore[assignment]
     tick_both(pair, rng)
     for body in pair:
         body.hand_over({1, 2})
@@ -122,7 +122,7 @@ def test_so_it_does_while_the_load_passes_on() -> None:
         assert_alike(pair)
         parts += 1
     assert parts > 50
-    assert [task.doing for task in pair[0].tasks] == ["cling", "hold", "hold"]
+    assert [task.mode for task in pair[0].tasks] == ["unloaded_contact", "stance", "stance"]
 
 
 @njit
@@ -145,9 +145,9 @@ def test_a_tick_allocates_nothing() -> None:
     alone = allocations(hand_over_alone, body._table)
     assert alone > 0  # so they are counted: the array that is handed over has a counter
     assert allocations(see_tick, body._table, 0.1, 0.0, True) == alone
-    for doing in get_args(Doing):
-        body.tasks[2].doing = doing
-        body.command()  # notes what the limb is doing
+    for mode in get_args(LimbMode):
+        body.tasks[2].mode = mode
+        body.command()  # notes what the limb is mode
         assert allocations(command_tick, body._table, 1.0) == alone
         assert allocations(command_tick, body._table, 0.5) == alone
 
@@ -155,7 +155,7 @@ def test_a_tick_allocates_nothing() -> None:
 def test_a_measurement_that_is_not_finite_is_named() -> None:
     body, _ = busy_pair(robot_named("libra"), BodyGains(), np.random.default_rng(9))
     for task in body.tasks:
-        task.doing = "hold"
+        task.mode = "stance"
     q = np.ones((3, 2))
     q[1, 1] = np.nan
     body.see(q, np.zeros((3, 2)), 0.0, 0.0)
@@ -169,7 +169,7 @@ def test_an_elbow_is_kept_from_straight_by_a_soft_stop_and_nothing_else_is_touch
     torques = []
     for kept in (0, side):
         body = WholeBody(robot_named("libra"), period=PERIOD)
-        body.tasks[1] = LimbTask("pull", force=np.array((3.0, -8.0)), side=kept)
+        body.tasks[1] = LimbTask("contact_push", force=np.array((3.0, -8.0)), side=kept)
         q = np.array(((0.2, 1.0), (0.4, side * part * BENT), (-0.3, 0.8)))
         body.see(q, np.zeros_like(q), 0.1, 0.0)
         torques.append(body.command().copy())

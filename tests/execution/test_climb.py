@@ -12,8 +12,8 @@ import pytest
 from clamber.families.climber.execution import actor, hook
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
-from clamber.families.climber.execution.course import lay_course
 from clamber.families.climber.execution.ends import grab, press_on, release
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.execution.hook_push import push_on
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.motions import (
@@ -31,8 +31,8 @@ from clamber.families.climber.execution.motions import (
     move_tip,
 )
 from clamber.families.climber.execution.postures import postures
-from clamber.families.climber.execution.pushed_body import PushedBody
 from clamber.families.climber.execution.slip import SlipWatch
+from clamber.families.climber.execution.swing_contact_monitor import PushedBody
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import BodySensed, ClimberPlant
 from clamber.families.climber.trials.run_plan import climbing_task
@@ -121,7 +121,7 @@ def test_a_way_goes_from_rest_to_rest_within_speed_and_agility(length: float) ->
 @pytest.mark.parametrize("stop", [0.3, 9.0])
 def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(stop: float) -> None:
     q, ticks, farthest = np.zeros((1, 2)), 0, 0.0
-    task = LimbTask("tip")
+    task = LimbTask("swing_cartesian")
 
     def tick() -> None:
         """The joints come after what is asked of them, the first as far as something that it cannot move."""
@@ -146,7 +146,7 @@ def test_no_joint_is_sped_up_beyond_what_its_motor_and_the_body_bear(seed: int) 
     """Whatever corners a way has, and however sharp."""
     rng = np.random.default_rng(seed)
     way = np.cumsum(rng.uniform(-0.6, 0.6, (12, 2)), axis=0)
-    task, q, rates = LimbTask("tip"), way[:1].copy(), [np.zeros(2)]
+    task, q, rates = LimbTask("swing_cartesian"), way[:1].copy(), [np.zeros(2)]
 
     def tick() -> None:
         q[0] = task.angles
@@ -270,7 +270,7 @@ def test_what_errors_of_the_sensors_do_to_a_difference_of_tips_is_its_derivative
 def test_without_its_hooks_the_robot_falls_and_says_so() -> None:
     climber, _ = on_the_ladder()
     for task in climber.body.tasks:
-        task.doing, task.hold = "joints", 0
+        task.mode, task.hold = "swing_joint", 0
     with pytest.raises(FallenError, match="no limb holds"):
         climber.tick()
 
@@ -564,14 +564,14 @@ def test_a_hook_that_has_slid_back_on_its_hold_is_pushed_home_from_there(off: fl
     body, task = climber.body, climber.body.tasks[BOTTOM]
     assert move_tip(climber, BOTTOM, body.tip(BOTTOM) - off * body.grab_direction(BOTTOM), 0.3)
     climber.wait(0.1)
-    task.doing = "cling"
+    task.mode = "unloaded_contact"
     before = float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2])))
     assert before == pytest.approx(off, abs=0.006)
     if not home:  # something lies in its way
         climber.holds[2] = climber.holds[2] + np.array((0.0, 0.06))
         task.place = climber.holds[2].copy()
     assert press_on(climber, BOTTOM) is home
-    assert (task.hold, task.doing, task.side) == (2, "cling", 0)
+    assert (task.hold, task.mode, task.side) == (2, "unloaded_contact", 0)
     if home:
         assert float(np.hypot(*(plant.truth().tips[BOTTOM] - climber.holds[2]))) < 0.004
         assert climber.latest == BOTTOM and not climber.proven
@@ -624,7 +624,10 @@ def test_a_hold_that_a_clinging_limb_has_slid_off_is_taken_again_before_another_
     step = next(k for k, action in enumerate(course.actions, 1) if action.kind == "release")
     names = [limb.name for limb in course.task.robot.limbs]
     acts = names.index(str(course.actions[step - 1].limb))
-    tasks = [LimbTask("cling" if i != acts else "hold", course.holds(step - 1)[name]) for i, name in enumerate(names)]
+    tasks = [
+        LimbTask("unloaded_contact" if i != acts else "stance", course.holds(step - 1)[name])
+        for i, name in enumerate(names)
+    ]
     slid = next(i for i, task in enumerate(tasks) if i != acts and task.hold)
     down = np.array((0.0, -1.0))
     body = SimpleNamespace(

@@ -15,7 +15,7 @@ from clamber.execution.hardware import WiredClimber
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climbing import Climbing
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.execution.wiring import guard_of, wiring_of
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.noise import named_noise

@@ -12,7 +12,7 @@ from clamber.execution.log_files import read_log, write_log
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_trace import ClimbTrace, TracedClimber
 from clamber.families.climber.execution.climbing import Climbing, Replan
-from clamber.families.climber.execution.course import PlanRefusedError, climbable, lay_course
+from clamber.families.climber.execution.executable_plan import PlanRefusedError, climbable, lay_course
 from clamber.families.climber.execution.motions import move_body
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask

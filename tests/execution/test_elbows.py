@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.families.climber.execution.bearing import borne
-from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.contact_capacity import load_capacity
+from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.problem.plan_source import open_plan
@@ -18,22 +18,22 @@ TWINS = {21: 24, 24: 21, 23: 25, 25: 23}
 
 
 @pytest.fixture(scope="module")
-def course() -> Course:
+def course() -> ExecutablePlan:
     opened = open_plan(CIRCLE)
     return lay_course(climbing_task(opened.task), opened.plan)
 
 
-def test_two_hooks_bear_the_body_in_every_stance(course: Course) -> None:
+def test_two_hooks_bear_the_body_in_every_stance(course: ExecutablePlan) -> None:
     """By the controller's own reckoning: where they lacked 6 N, one climb in eight fell."""
     places = course.task.world.positions()
     lack = [
-        borne(course.task.robot, places, stance, sides)
+        load_capacity(course.task.robot, places, stance, sides)
         for stance, sides in zip(course.stances, course.elbows, strict=True)
     ]
     assert min(lack) > -2.5
 
 
-def test_a_hook_on_a_peg_with_a_twin_has_the_twin_before_its_mouth(course: Course) -> None:
+def test_a_hook_on_a_peg_with_a_twin_has_the_twin_before_its_mouth(course: ExecutablePlan) -> None:
     """Well before its lips, whose corners are 42 deg to either side: wherever the two pegs are, the hook turns past neither."""
     robot, places = course.task.robot, course.task.world.positions()
     rows = {hold.number: place for hold, place in zip(course.task.world.holds, places, strict=True)}

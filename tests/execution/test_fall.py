@@ -121,7 +121,7 @@ def test_a_robot_that_stands_still_has_not_fallen_whatever_its_tips_feel(
     climber.body.qd[:] = 0.0
     climber.body.qd[turns] = rate
     if hangs:
-        climber.body.tasks[0].doing = "hang"
+        climber.body.tasks[0].mode = "hang"
     assert any(climber.fall.see() for _ in range(100)) is told
 
 

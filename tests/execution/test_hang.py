@@ -14,7 +14,7 @@ from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climber import FallenError
 from clamber.families.climber.execution.climbing import Climbing
-from clamber.families.climber.execution.course import alone, climbable, lay_course
+from clamber.families.climber.execution.executable_plan import alone, climbable, lay_course
 from clamber.families.climber.execution.hang import LAG
 from clamber.families.climber.execution.pendulum import Pendulum
 from clamber.families.climber.planning.plans import thesis_code
@@ -290,7 +290,7 @@ def test_the_gap_is_crossed_hanging_and_no_hook_is_lost(seed: int, friction: flo
         tick()
         if climber.hangs:
             true = plant.truth()
-            stay = next(i for i, one in enumerate(climber.body.tasks) if one.doing == "hang")
+            stay = next(i for i, one in enumerate(climber.body.tasks) if one.mode == "hang")
             peg = pegs[climber.body.tasks[stay].hold - 1]
             swing = Pendulum(task.robot, stay).swing(true.q, float(true.pose[2]))
             seen.append((climber.step, swing, float(np.hypot(*(true.tips[stay] - peg)))))

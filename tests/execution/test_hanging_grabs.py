@@ -16,10 +16,10 @@ from clamber.families.climber.execution.actor import Actor
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climber import Climber
-from clamber.families.climber.execution.course import Course, lay_course
-from clamber.families.climber.execution.here import task_from_here
+from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.hold_map import HoldMap
-from clamber.families.climber.trials.rehearsal import REHEARSED
+from clamber.families.climber.execution.remaining_task import task_from_here
+from clamber.families.climber.trials.plan_validation import VALIDATION_NOISE
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task, task_from_document
@@ -31,13 +31,13 @@ BEFORE = 137
 """Step of the saved plan with which the body goes below the right limb's hold: four moves, then the left limb grabs 8 in on."""
 
 
-def mapped(course: Course) -> HoldMap:
+def mapped(course: ExecutablePlan) -> HoldMap:
     """The holds of a course's board, known exactly."""
     return HoldMap({hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}, 0.0)
 
 
 @pytest.fixture(scope="module")
-def single_row() -> Course:
+def single_row() -> ExecutablePlan:
     """The saved plan along the single row, from before the body goes below the right limb's hold, on pegs 26 and 27, to its end."""
     task = climbing_task(load_task("across-hanging"))
     whole = load_plan(SAVED)
@@ -48,12 +48,12 @@ def single_row() -> Course:
     return lay_course(here, Plan.of_codes(here, whole.codes(task)[BEFORE - 1 :], planner="beam"))
 
 
-def climb(course: Course, actions: int, seed: int) -> ClimbRun:
+def climb(course: ExecutablePlan, actions: int, seed: int) -> ClimbRun:
     """The first actions of a course, pegs 3 mm off."""
     whole = load_plan(SAVED)
     codes = whole.codes(climbing_task(load_task("across-hanging")))[BEFORE - 1 :]
     plan = Plan.of_codes(course.task, codes[:actions], planner="beam")
-    return run_plan(course.task, plan, climbing_flaws(course.task, ()), noise=REHEARSED, seed=seed)
+    return run_plan(course.task, plan, climbing_flaws(course.task, ()), noise=VALIDATION_NOISE, seed=seed)
 
 
 def true_tip(run: ClimbRun, i: int) -> Floats:
@@ -73,7 +73,7 @@ def true_tip(run: ClimbRun, i: int) -> Floats:
 
 
 @pytest.mark.parametrize("seed", [2, 13])
-def test_a_hook_that_comes_from_the_side_to_a_hanging_body_comes_home(single_row: Course, seed: int) -> None:
+def test_a_hook_that_comes_from_the_side_to_a_hanging_body_comes_home(single_row: ExecutablePlan, seed: int) -> None:
     run = climb(single_row, 5, seed)
     taken = run.report.actions[-1]
     assert (taken.title, taken.outcome, taken.tries) == ("left grabs 28", "ok", 1), run.reason
@@ -101,7 +101,7 @@ class Knock:
         def watched(climber: TracedClimber) -> None:
             nonlocal left
             model, tasks = cast(Any, climber.plant).model, climber.body.tasks
-            if self.at is None and climber.step >= step and sum(task.doing == "hold" for task in tasks) == 2:
+            if self.at is None and climber.step >= step and sum(task.mode == "stance" for task in tasks) == 2:
                 left -= 1
                 if left < 0:
                     self.at, self.geom = climber.time, model.geom(f"peg {tasks[limb].hold}").id
@@ -117,7 +117,7 @@ class Knock:
 @pytest.mark.slow
 @pytest.mark.parametrize(("seed", "ticks"), [(1, 20), (2, 300)])
 def test_a_hook_lost_on_the_single_row_is_brought_back_by_the_plan_that_led_there(
-    monkeypatch: pytest.MonkeyPatch, single_row: Course, seed: int, ticks: int
+    monkeypatch: pytest.MonkeyPatch, single_row: ExecutablePlan, seed: int, ticks: int
 ) -> None:
     knock = Knock(monkeypatch, LEFT, 6, ticks)
     run = climb(single_row, 13, seed)
@@ -129,7 +129,7 @@ def test_a_hook_lost_on_the_single_row_is_brought_back_by_the_plan_that_led_ther
 
 
 def test_the_robot_catches_up_from_the_stance_with_its_holds_nearest_to_where_it_is(
-    monkeypatch: pytest.MonkeyPatch, single_row: Course
+    monkeypatch: pytest.MonkeyPatch, single_row: ExecutablePlan
 ) -> None:
     limbs = single_row.task.robot.limbs
     sides = single_row.elbows[0]
@@ -226,7 +226,7 @@ def test_a_tip_goes_straight_to_a_place_and_stops_pulling_where_it_is_held(
     monkeypatch: pytest.MonkeyPatch, wall: float
 ) -> None:
     start, way = np.array((0.3, 0.2)), np.array((0.6, -0.8))
-    tip, task, farthest = start.copy(), SimpleNamespace(doing="joints", place=start, speed=np.zeros(2)), 0.0
+    tip, task, farthest = start.copy(), SimpleNamespace(mode="swing_joint", place=start, speed=np.zeros(2)), 0.0
 
     def tick() -> None:
         """The tip comes after where it is to be, with a lag of 50 ms, as far as the wall."""
@@ -287,7 +287,7 @@ def test_a_pull_fades_to_nothing_within_a_swing() -> None:
 
 
 def test_a_hang_that_a_slip_has_led_to_is_taken_up_by_the_plan(
-    single_row: Course, monkeypatch: pytest.MonkeyPatch
+    single_row: ExecutablePlan, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """After it nobody had let go: the plan's next move of the body that hangs goes on from there."""
     taken: list[tuple[int, str]] = []

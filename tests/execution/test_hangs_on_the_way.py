@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from clamber.families.climber.execution.course import Course, lay_course, swings
+from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course, swings
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.cautions import HANGING, STEADY, cautious, steady
 from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.planning_margins import HANGING, STEADY, steady, with_margins
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.trials.trial import TrialSetup, climb_once
 from clamber.planning.beam import plan_beam
@@ -30,11 +30,13 @@ def plan() -> Plan:
 
 
 @pytest.fixture(scope="module")
-def course(task: LimbedTask, plan: Plan) -> Course:
+def course(task: LimbedTask, plan: Plan) -> ExecutablePlan:
     return lay_course(task, plan)
 
 
-def test_a_grab_that_leaves_one_limb_on_its_hold_on_the_way_swings_however_little_it_turns(course: Course) -> None:
+def test_a_grab_that_leaves_one_limb_on_its_hold_on_the_way_swings_however_little_it_turns(
+    course: ExecutablePlan,
+) -> None:
     seen = 0
     for step in range(1, len(course.stances)):
         before = [limb for limb, number in course.holds(step - 1).items() if number]
@@ -49,7 +51,7 @@ def test_a_grab_that_leaves_one_limb_on_its_hold_on_the_way_swings_however_littl
 
 
 def test_the_saved_plan_hangs_only_beyond_the_second_third_and_within_its_rules(
-    task: LimbedTask, plan: Plan, course: Course
+    task: LimbedTask, plan: Plan, course: ExecutablePlan
 ) -> None:
     assert not course.objections
     replay = pose_problem(task).problem.replay(plan.codes(task))
@@ -63,7 +65,7 @@ def test_the_saved_plan_hangs_only_beyond_the_second_third_and_within_its_rules(
 def test_a_task_that_allows_hangs_is_searched_with_calm_hangs_first(task: LimbedTask) -> None:
     assert steady(task) == (*HANGING, *STEADY)
     assert steady(climbing_task(load_task("across"))) == STEADY
-    rules = cautious(task, HANGING[0]).rules
+    rules = with_margins(task, HANGING[0]).rules
     assert rules.max_hangs == -1 and rules.max_swing == pytest.approx(np.radians(5.0))
 
 
@@ -100,7 +102,7 @@ def test_a_robot_that_friction_or_a_straight_limb_bears_has_not_fallen(task: Lim
 
 @pytest.mark.slow
 def test_the_saved_plan_is_what_the_planner_finds(task: LimbedTask, plan: Plan) -> None:
-    result = plan_beam(cautious(task, HANGING[0]), seed=0)
+    result = plan_beam(with_margins(task, HANGING[0]), seed=0)
     assert result.plan is not None
     assert list(result.plan.codes(task)) == list(plan.codes(task))
 

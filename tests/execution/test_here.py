@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from clamber.families.climber.execution.course import Course, lay_course
-from clamber.families.climber.execution.here import task_from_here
+from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
+from clamber.families.climber.execution.remaining_task import task_from_here
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.problem.plan import load_plan
@@ -16,7 +16,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 SAVED = EXAMPLES / "across" / "plan.json"
 
 
-def across(*settings: str) -> Course:
+def across(*settings: str) -> ExecutablePlan:
     task = climbing_task(load_task("across-hanging", settings))
     assert isinstance(task, LimbedTask)
     return lay_course(task, load_plan(SAVED))

@@ -27,7 +27,7 @@ from clamber.execution.log_mcap import parse_mcap
 from clamber.execution.log_roles import samples_of
 from clamber.execution.log_stream import LogStream, part_of
 from clamber.families.climber.execution.climb_trace import ClimbTrace
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan
@@ -173,7 +173,8 @@ def assert_left(log: Path, climbed: ClimbTrace) -> None:
     with pytest.raises(EndOfFile):  # the format's own reader gets as far, whatever it then makes of the end
         for record in StreamReader(io.BytesIO(whole_records(part_of(log).read_bytes()))).records:
             told += [record] if isinstance(record, Message) else []
-    assert [json.loads(message.data)["time [s]"] for message in told] == trace.time.tolist()
+    numbers = [data for message in told if "time [s]" in (data := json.loads(message.data))]  # beside frames and shapes
+    assert [data["time [s]"] for data in numbers] == trace.time.tolist()
 
 
 def whole_records(content: bytes) -> bytes:
@@ -199,10 +200,10 @@ def test_a_climb_goes_on_without_its_log_and_says_from_when_that_is_missing(
     plan, before = climb_plan(tmp_path, RUNG[:2]), resource.getrlimit(resource.RLIMIT_FSIZE)
     whole = LiveLine.show
 
-    def fills_the_disk(line: LiveLine, words: str) -> None:
+    def fills_the_disk(line: LiveLine, words: str, share: float | None = None) -> None:
         if words.startswith("action 2 "):
             resource.setrlimit(resource.RLIMIT_FSIZE, (2000, before[1]))
-        whole(line, words)
+        whole(line, words, share)
 
     monkeypatch.setattr(LiveLine, "show", fills_the_disk)
     try:

@@ -15,10 +15,10 @@ from clamber.execution.run_report import Ending, FallenError, FaultError, Outcom
 from clamber.execution.sequencer import MOST_RECOVERIES, MOST_REPLANS, Attempt, Performer, Sequencer
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climbing import Climbing
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.walker.control.track import straight
-from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.footstep_plan import TrackCourse
 from clamber.families.walker.execution.true_walk import TracedPlant
 from clamber.families.walker.execution.walk_trace import TracedWalker
 from clamber.families.walker.execution.walking import Walking

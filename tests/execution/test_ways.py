@@ -230,7 +230,7 @@ def on_three_holds() -> WholeBody:
     """A body whose limbs all carry."""
     body = WholeBody(libra(), period=0.005)
     for i in range(3):
-        body.tasks[i] = LimbTask("hold", i + 1, np.zeros(2))
+        body.tasks[i] = LimbTask("stance", i + 1, np.zeros(2))
     body.see(np.full((3, 2), 0.5), np.zeros((3, 2)), 0.0, 0.0)
     return body
 
@@ -244,7 +244,7 @@ def test_a_hand_over_leaves_the_others_clinging() -> None:
     body = on_three_holds()
     body.hand_over([LEFT, BOTTOM])
     pass_time(body, 1.0)
-    assert [task.doing for task in body.tasks] == ["cling", "hold", "hold"]
+    assert [task.mode for task in body.tasks] == ["unloaded_contact", "stance", "stance"]
 
 
 def test_a_hand_over_that_is_started_again_begins_anew() -> None:
@@ -255,7 +255,7 @@ def test_a_hand_over_that_is_started_again_begins_anew() -> None:
     pass_time(body, 0.3)
     assert body.handing_over
     pass_time(body, 0.7)
-    assert [task.doing for task in body.tasks] == ["hold", "cling", "hold"]
+    assert [task.mode for task in body.tasks] == ["stance", "unloaded_contact", "stance"]
 
 
 def test_a_hand_over_to_all_that_hold_ends_the_one_before() -> None:
@@ -265,7 +265,7 @@ def test_a_hand_over_to_all_that_hold_ends_the_one_before() -> None:
     body.hand_over([RIGHT, LEFT, BOTTOM])
     assert not body.handing_over
     pass_time(body, 1.0)
-    assert [task.doing for task in body.tasks] == ["hold", "hold", "hold"]
+    assert [task.mode for task in body.tasks] == ["stance", "stance", "stance"]
 
 
 @pytest.mark.parametrize(("pose", "start"), [

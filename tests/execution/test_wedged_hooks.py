@@ -10,7 +10,7 @@ import pytest
 from clamber.families.climber.execution import actor as actor_module
 from clamber.families.climber.execution.actor import Actor
 from clamber.families.climber.execution.climber import Climber
-from clamber.families.climber.execution.course import Course, lay_course
+from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.hold_map import HoldMap
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.problem.plan_source import open_plan
@@ -18,18 +18,18 @@ from clamber.planning.problem.plan_source import open_plan
 CIRCLE = Path(__file__).parents[2] / "examples" / "circle" / "plan.json"
 
 
-def mapped(course: Course) -> HoldMap:
+def mapped(course: ExecutablePlan) -> HoldMap:
     """The holds of a course's board, known exactly."""
     return HoldMap({hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}, 0.0)
 
 
 @pytest.fixture(scope="module")
-def course() -> Course:
+def course() -> ExecutablePlan:
     opened = open_plan(CIRCLE)
     return lay_course(climbing_task(opened.task), opened.plan)
 
 
-def moves_before(course: Course, step: int) -> int:
+def moves_before(course: ExecutablePlan, step: int) -> int:
     """Of the body, since the limbs came to hold as they do before a step."""
     back = step - 1
     while back > 0 and course.holds(back - 1) == course.holds(step - 1):
@@ -39,12 +39,12 @@ def moves_before(course: Course, step: int) -> int:
 
 @pytest.mark.parametrize("comes_off", [0, 1, 2, None], ids=lambda at: f"after {at}")
 def test_a_wedged_hook_is_tried_at_each_pose_back_with_the_same_holds(
-    course: Course, monkeypatch: pytest.MonkeyPatch, comes_off: int | None
+    course: ExecutablePlan, monkeypatch: pytest.MonkeyPatch, comes_off: int | None
 ) -> None:
     step = next(k for k, a in enumerate(course.actions, 1) if a.kind == "release" and moves_before(course, k) >= 3)
     most, limb = moves_before(course, step), course.actions[step - 1].limb
     names = [one.name for one in course.task.robot.limbs]
-    tasks = [SimpleNamespace(hold=course.holds(step - 1)[name], doing="hold") for name in names]
+    tasks = [SimpleNamespace(hold=course.holds(step - 1)[name], mode="stance") for name in names]
     body = SimpleNamespace(tasks=tasks, aim=course.pose(step - 1), settled=course.pose(step - 1))
     been: list[Any] = []
     tries = 0

@@ -7,7 +7,7 @@ from clamber.benchmarks.benches import BENCHES
 from clamber.benchmarks.climb_speed import TapedClimberPlant, timed_trial, two_rungs
 from clamber.execution.sequencer import Sequencer
 from clamber.families.climber.execution.climbing import Climbing
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.trials.run_plan import climbing_flaws
 
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from clamber.families.climber.cli.rehearse import FIRST_SEED
+from clamber.families.climber.cli.validate import FIRST_SEED
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.lessons import learn
-from clamber.families.climber.trials.rehearsal import SEEDS
+from clamber.families.climber.trials.plan_repair import learn
+from clamber.families.climber.trials.plan_validation import SEEDS
 from clamber.families.climber.trials.trial import ClimbTrial
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
@@ -40,7 +40,7 @@ def test_a_plan_does_not_learn_from_held_out_seeds() -> None:
 
 
 def test_rehearsals_with_held_out_seeds_are_refused_by_the_command(clamber: Any) -> None:
-    code, _, err = clamber("rehearse", "ladder-hand", "-n", "1", "--seed", str(FIRST_HELD_OUT), "-q")
+    code, _, err = clamber("validate", "ladder-hand", "-n", "1", "--seed", str(FIRST_HELD_OUT), "-q")
     assert code == 2 and "held out for rates" in err
 
 

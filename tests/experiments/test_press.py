@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.robot.robot import LimbedRobot
-from clamber.families.climber.trials.press import Pressed, run_press
+from clamber.families.climber.trials.hold_force import Pressed, run_press
 from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks.robots import load_robot

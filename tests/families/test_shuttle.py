@@ -1,6 +1,7 @@
 """A third family, of another package: no file of Clamber knows it, and it goes through every command."""
 
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -29,7 +30,7 @@ def installed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: shuttle\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[clamber.families]\nshuttle = shuttle.family:SHUTTLE\n")
     monkeypatch.syspath_prepend(str(site))
-    monkeypatch.setenv("PYTHONPATH", str(site))
+    monkeypatch.setenv("PYTHONPATH", os.pathsep.join((str(site), *filter(None, [os.environ.get("PYTHONPATH")]))))
     monkeypatch.chdir(tmp_path)
     yield
     for name in ("shuttle", "shuttle.family", "shuttle.kernels"):
@@ -76,11 +77,12 @@ def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
     assert start["reach"] == pytest.approx(0.07)
     assert told(clamber, "check", str(plan))["ok"]
     assert told(clamber, "inventory", "shuttle-line")["modules"] == 14
-    assert told(clamber, "polish", str(plan))["length"] == SHORTEST
+    assert told(clamber, "shorten", str(plan))["length"] == SHORTEST
 
 
 def test_its_reach_is_mapped_and_its_keys_are_swept(clamber: Run) -> None:
     seen = told(clamber, "reach", "shuttle-line")
+    assert set(seen["places"]) == {"x_m", "y_m", "angles", "stances", "first_step", "margin", "margin_check"}
     assert seen["status"] == "complete" and seen["goals"][0]["first_step"] == SHORTEST
     assert max(seen["places"]["x_m"]) == pytest.approx(
         0.59

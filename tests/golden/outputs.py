@@ -3,6 +3,9 @@
 `python tests/golden/outputs.py` compares with `hashes.json`; `--write` renews it; `--keep FOLDER` keeps what was hashed, to compare
 two trees by `diff -r`. Figures count, prose does not: of a text with spaces only its numbers are kept. Names of keys and of values
 that were renamed since the hashes were written stand in `renamed.toml`, new = old.
+
+Floats are rounded to `DIGITS` digits: processors differ in the last ones, by the order of sums and by fused multiplication. Where a search
+or a simulation turns on such a digit, hashes differ from processor to processor all the same; then compare two trees on one machine.
 """
 
 import argparse
@@ -30,6 +33,9 @@ sys.path.insert(0, str(HERE.parent))
 
 from here import Here  # noqa: E402
 
+DIGITS = 9
+"""Of a float, that are hashed; what is smaller than `NOUGHT` is 0."""
+NOUGHT = 1e-12
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 VOLATILE = {
     "release",
@@ -44,7 +50,7 @@ VOLATILE = {
     "speed",
 }
 """Keys of what differs from run to run or from tree to tree: memory, hashes of the source, the machine, times of the clock."""
-CLOCKS = {command: {"seconds"} for command in ("plan", "polish", "learn", "sweep", "reach")} | {"limb": {"tick"}}
+CLOCKS = {command: {"seconds"} for command in ("plan", "shorten", "learn", "sweep", "reach")} | {"limb": {"tick"}}
 """Command -> its keys that hold times of the clock; elsewhere "seconds" are those of a simulation."""
 
 
@@ -69,6 +75,8 @@ class Frozen:
             return {key: self.of(entry) for key, entry in old.items() if key not in self.left_out}
         if isinstance(value, list):
             return [self.of(entry) for entry in value]
+        if isinstance(value, float):
+            return 0.0 if abs(value) < NOUGHT else float(f"{value:.{DIGITS}g}")
         if isinstance(value, str):
             prose = " " in value or "/" in value
             return NUMBER.findall(Path(value).name) if prose else self.values.get(value, value)

@@ -19,7 +19,7 @@ from jobs_by_hand import batch, square
 from test_jobs import ran, rows_of, start_batch
 
 import clamber
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import named_noise

@@ -12,8 +12,8 @@ from clamber.errors import PlannerError, SpecError, StartError
 from clamber.families.climber.planning.relaxations import climber_relaxations
 from clamber.family import Family, families, family_of
 from clamber.planning.exact.planner import plan_exact
-from clamber.planning.openings.find import Opening, Openings, find_openings
-from clamber.planning.openings.relaxations import Dial
+from clamber.planning.infeasibility.find import FeasibleRelaxation, InfeasibilityExplanation, explain_infeasibility
+from clamber.planning.infeasibility.relaxations import Dial
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 from clamber.tasks.library import change_task
@@ -37,12 +37,12 @@ RING = (
 Case = tuple[str, tuple[str, ...]]
 
 
-def openings_of(case: Case, **options: Any) -> Openings:
-    return find_openings(load_task(*case), seconds=None, threads=2, max_stances=100_000, **options)
+def openings_of(case: Case, **options: Any) -> InfeasibilityExplanation:
+    return explain_infeasibility(load_task(*case), seconds=None, threads=2, max_stances=100_000, **options)
 
 
 @pytest.fixture(scope="module")
-def steep() -> Openings:
+def steep() -> InfeasibilityExplanation:
     return openings_of(STEEP)
 
 
@@ -56,7 +56,7 @@ def is_feasible(case: Case, *overrides: str) -> int | None:
     return result.length if result.status == "optimal" else None
 
 
-def at(opening: Opening, value: float) -> tuple[str, ...]:
+def at(opening: FeasibleRelaxation, value: float) -> tuple[str, ...]:
     """The overrides of a numeric opening with another value."""
     if opening.key == "all joint ranges, each end" or "ranges" in opening.key:
         dials = climber_relaxations(load_task(*STEEP))  # type: ignore[arg-type]
@@ -66,7 +66,7 @@ def at(opening: Opening, value: float) -> tuple[str, ...]:
 
 
 @pytest.mark.parametrize("case", [STEEP, WEAK, SHORT])
-def test_every_opening_is_feasible_and_infeasible_one_step_before(case: Case, steep: Openings) -> None:
+def test_every_opening_is_feasible_and_infeasible_one_step_before(case: Case, steep: InfeasibilityExplanation) -> None:
     found = steep if case == STEEP else openings_of(case)
     assert found.openings and not found.ended
     assert is_feasible(case) is None
@@ -80,7 +80,7 @@ def test_every_opening_is_feasible_and_infeasible_one_step_before(case: Case, st
             assert is_feasible(case, *at(opening, float(opening.shut_at))) is None, opening.text
 
 
-def test_what_is_told_to_open_nothing_opens_nothing(steep: Openings) -> None:
+def test_what_is_told_to_open_nothing_opens_nothing(steep: InfeasibilityExplanation) -> None:
     told = {shut.key for shut in steep.shut if shut.proved}
     assert {"rules.reach_offset", "motor.torque_limit", "rules.clearance"} <= told
     assert is_feasible(STEEP, "rules.reach_offset=0 mm") is None
@@ -131,8 +131,8 @@ def test_a_hold_added_where_it_is_told_opens_the_board_and_no_other_place_does()
             assert is_feasible(GAP, added) is None, closed[k]
 
 
-def test_the_answer_does_not_depend_on_threads(steep: Openings) -> None:
-    again = find_openings(load_task(*STEEP), seconds=None, threads=1, max_stances=100_000).to_json()
+def test_the_answer_does_not_depend_on_threads(steep: InfeasibilityExplanation) -> None:
+    again = explain_infeasibility(load_task(*STEEP), seconds=None, threads=1, max_stances=100_000).to_json()
     assert again | {"seconds": 0} == steep.to_json() | {"seconds": 0}
 
 
@@ -151,7 +151,7 @@ def test_every_family_says_what_can_be_relaxed(family: Family) -> None:
 
 
 def test_without_time_nothing_is_claimed() -> None:
-    found = find_openings(load_task(*STEEP), seconds=0.0, threads=1)
+    found = explain_infeasibility(load_task(*STEEP), seconds=0.0, threads=1)
     assert not found.found and found.ended == "time"
     assert all(not shut.proved for shut in found.shut)
 
@@ -204,7 +204,7 @@ def words_of(case: Case, *more: str) -> tuple[str, ...]:
 
 
 def test_the_command_prints_the_openings_after_the_proof(
-    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, steep: Openings
+    capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, steep: InfeasibilityExplanation
 ) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     code, out, _ = run(capfd, *words_of(STEEP))
@@ -217,7 +217,7 @@ def test_the_command_prints_the_openings_after_the_proof(
     assert "any one of these" not in short and "infeasible:" in short
 
 
-def test_the_json_has_the_openings(capfd: pytest.CaptureFixture[str], steep: Openings) -> None:
+def test_the_json_has_the_openings(capfd: pytest.CaptureFixture[str], steep: InfeasibilityExplanation) -> None:
     code, out, _ = run(capfd, *words_of(STEEP, "--json"))
     told = json.loads(out)
     assert code == 1 and told["status"] == "infeasible"

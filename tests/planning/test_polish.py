@@ -14,7 +14,7 @@ from clamber.planning.beam import plan_beam
 from clamber.planning.beam_layers import Beam, search_layers
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.hybrid import plan_hybrid
-from clamber.planning.problem.family_kernels import toward
+from clamber.planning.problem.family_kernels import heuristic_between
 from clamber.planning.problem.problems import pose_problem
 from clamber.planning.shorten import is_plan, polish_plan, shorten, shorten_by_windows, shorten_in_corridor
 from clamber.tasks import load_task
@@ -35,7 +35,7 @@ WALKS = {
 def towards(p, stances, targets, out):
     for i in range(stances.shape[0]):
         for j in range(targets.shape[0]):
-            out[i, j] = toward(p, stances[i], targets[j])
+            out[i, j] = heuristic_between(p, stances[i], targets[j])
 
 
 def random_walk(problem, seed, n):

@@ -22,7 +22,7 @@ from clamber.planning.problem.family_kernels import key
 from clamber.planning.problem.loops import replay
 from clamber.planning.problem.plan_source import open_replay
 from clamber.planning.problem.problem import CompiledProblem
-from clamber.planning.problem.problems import plan_family, pose_problem, yardsticks_of
+from clamber.planning.problem.problems import normalisation_of, plan_family, pose_problem
 from clamber.planning.reach.reach import LAYERS, LayerError, Reach, choose_layer, find_reach, layers_of
 from clamber.tasks import Task, load_task
 from clamber.viewing.margins import all_limiting
@@ -209,10 +209,10 @@ def test_margins_are_shares_of_the_same_yardsticks_as_in_pictures() -> None:
     task = load_task(*SMALL["three rungs"])
     stances, _ = plain_flood(task)
     reach, problem = find_reach(task), pose_problem(task, threads=1).problem
-    yardsticks = yardsticks_of(task)
+    normalisation = normalisation_of(task)
     best: dict[tuple[int, int], float] = {}
     for stance in stances:
-        (limiting,) = all_limiting(yardsticks, problem.rebind(problem.actions, np.array([stance])).replay(NONE))
+        (limiting,) = all_limiting(normalisation, problem.rebind(problem.actions, np.array([stance])).replay(NONE))
         at = (int(stance["ix"]) // TICKS, int(stance["iy"]) // TICKS)
         assert limiting is not None
         best[at] = max(best.get(at, -1.0), limiting.share)
@@ -266,7 +266,7 @@ def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
 
 @pytest.mark.parametrize("family", families(), ids=lambda family: str(family.name))
 def test_every_family_has_burdens_and_a_world_to_draw(family: Family) -> None:
-    assert family.plans.burdens is not None and family.pictures is not None
+    assert family.plans.stance_costs is not None and family.pictures is not None
 
 
 def test_a_map_has_the_layers_that_its_family_has_burdens_for() -> None:

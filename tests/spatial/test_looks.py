@@ -28,8 +28,8 @@ from clamber.tasks.robots import load_robot, robot_names
 from clamber.toml_text import toml_text
 from clamber.types import Floats
 from clamber.viewing.alone import draw_alone, open_alone
-from clamber.viewing.film import View
 from clamber.viewing.pictures import animate, draw_route, draw_stance, pictures_of
+from clamber.viewing.recording import View
 
 TASKS = ("wall-gripper", "stones-quadruped")
 ROBOTS = robot_names("spatial")

@@ -17,6 +17,7 @@ from clamber.planning.exact.planner import plan_exact
 from clamber.planning.genetic.planner import plan_genetic
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.verdict import check_plan
+from clamber.planning.reach.reach import find_reach
 from clamber.planning.route import plan_route
 from clamber.tasks import load_task, task_from_document
 
@@ -54,6 +55,34 @@ def test_a_plan_passes_every_check_and_comes_to_the_goal(name: str) -> None:
     }
     assert {"reach", "joint", "jump", "equilibrium", "torque", "slip", "grip", "swing"} <= set(least)
     assert min(least.values()) >= 0.0
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_the_bodys_pose_is_the_sum_of_the_plans_moves_along_all_six_axes(name: str) -> None:
+    verdict, plan = check_plan(task(name), planned(name)), planned(name)
+    start = task(name).start
+    at = np.array((start.along, start.across, start.height, start.yaw, 0.0, 0.0))
+    moved = np.zeros(6)
+    for action, step in zip(plan.actions, verdict.per_step, strict=True):
+        moved += action.delta or 0.0
+        turned = np.array(step.pose) - at - moved
+        turned[3:] = (turned[3:] + np.pi) % (2.0 * np.pi) - np.pi
+        np.testing.assert_allclose(turned, 0.0, atol=1e-9)
+    assert list(verdict.to_json()["final"]["pose"]) == [
+        "along_m", "across_m", "height_m", "yaw_rad", "pitch_rad", "roll_rad",
+    ]  # fmt: skip
+
+
+def test_poses_that_differ_in_height_or_tilt_alone_are_told_apart_on_the_map() -> None:
+    it = task("wall-gripper", "step.tilt=10deg", "step.tilts=1")
+    seen = find_reach(it, max_stances=3_000)
+    steps = seen.poses.lattice
+    assert steps.shape[1] == 6 and len(np.unique(steps, axis=0)) == len(steps)
+    assert len(np.unique(steps[:, [0, 1, 3]], axis=0)) < len(steps)
+    assert all(np.ptp(steps[:, axis]) > 0 for axis in (2, 4, 5))
+    assert seen.poses.columns["stances"].sum() == seen.places.columns["stances"].sum() == 3_000
+    np.testing.assert_allclose(seen.poses.floats("height_m"), it.start.height + steps[:, 2] * it.step.height)
+    assert sorted(seen.places.columns)[:2] == ["across_m", "along_m"]
 
 
 @pytest.mark.parametrize("name", TASKS)

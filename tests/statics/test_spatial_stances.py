@@ -252,3 +252,33 @@ def test_a_lifted_path_within_reach_is_followed_and_one_beyond_is_not(machine: s
 def test_a_path_that_is_lifted_out_of_reach_says_so_though_its_ends_are_in_reach() -> None:
     shift = np.array([0.005, 0.005, 0.0])
     assert path_rooms("grippers", 16, shift, 0.01)[0] > 0.0 > path_rooms("grippers", 16, shift, 0.5)[0]
+
+
+@pytest.mark.parametrize("machine", sorted(MACHINES))
+def test_quick_verdicts_of_forces_are_those_of_the_whole_programme(machine: str) -> None:
+    chains, kind = MACHINES[machine]
+    statics = Statics(chains, [kind] * len(chains.limb_names))
+    bodies, contacts = random_stances(statics, chains, 400, np.random.default_rng(7))
+    need = 0.05
+    whole, _ = statics.judge(bodies, contacts, rules_record(need=need))
+    quick, reasons = statics.judge(
+        bodies, contacts, rules_record(need=need, exact=0, hard=1 << STANCE_CHECK["equilibrium"])
+    )
+    clear = (whole["judged"] == 1) & (quick["judged"] == 1) & (abs(whole["s"] - need) > 1e-6)
+    assert clear.sum() > 100
+    assert np.array_equal(reasons[clear] < 0, whole["s"][clear] >= need)
+    held = clear & (reasons < 0)
+    assert np.all(quick["s"][held] <= whole["s"][held] + 1e-6)
+    assert np.nanmin(quick["margins"][held][:, STANCE_CHECK["equilibrium"] :]) >= -1e-6
+
+
+def test_without_weight_no_motor_has_to_work() -> None:
+    chains, kind = MACHINES["clamps"]
+    statics = Statics(chains, [kind] * len(chains.limb_names))
+    bodies, contacts = random_stances(statics, chains, 200, np.random.default_rng(8))
+    bodies["gravity"] = 0.0
+    judged, _ = statics.judge(bodies, contacts)
+    stands = judged["judged"] == 1
+    assert stands.sum() > 100
+    assert judged["s"][stands] == pytest.approx(1.0, abs=1e-6)
+    assert np.all(judged["torque"][stands] < 1e-3)

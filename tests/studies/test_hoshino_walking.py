@@ -2,7 +2,7 @@
 
 import pytest
 
-from clamber.families.walker.trials.most import Tried
+from clamber.families.walker.trials.max_setting import Tried
 from clamber.studies.hoshino_1995.tool_runs import judge_following
 from clamber.studies.hoshino_1995.walks import Strayed, judge_steps, judge_strayed, turn_anywhere, walk_everywhere
 from clamber.studies.library import OF_ARM_AND_BODY, OF_WALKING

@@ -24,7 +24,7 @@ def chromium() -> Iterator[Any]:
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     if program is None:
         pytest.skip("no chromium: install Debian's package 'chromium' to test pages in a browser")
-    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: install 'clamber[dev]'")
+    playwright = pytest.importorskip("playwright.sync_api", reason="no playwright: pip install '.[dev]' in a clone")
     with playwright.sync_playwright() as driver:
         browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
         yield browser

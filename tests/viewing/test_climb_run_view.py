@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.pictures.climb_run import OUTCOMES, ClimbFilm, ClimbPicture
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask

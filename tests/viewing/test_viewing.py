@@ -26,14 +26,14 @@ from clamber.families.walker.planning.task import WalkerTask
 from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import pack
 from clamber.planning.problem.problem import Replay
-from clamber.planning.problem.problems import yardsticks_of
+from clamber.planning.problem.problems import normalisation_of
 from clamber.tasks import load_task
 from clamber.viewing.animation import write_gif, write_mp4
-from clamber.viewing.film import make_frames
 from clamber.viewing.margins import all_limiting, grade
 from clamber.viewing.output import MissingExtraError, StepError, SuffixError
 from clamber.viewing.pictures import animate, draw_route, draw_stance
 from clamber.viewing.plan_curves import draw_history, draw_torques
+from clamber.viewing.recording import make_frames
 from clamber.viewing.style import styled
 from clamber.viewing.view import Picture
 
@@ -240,7 +240,7 @@ def test_actions_are_told_from_what_they_change(ladder: Climb) -> None:
 def test_the_limiting_check_of_a_violated_step_is_its_reason() -> None:
     task, replay = climb("ladder", [UP, UP, UP, UP, UP])
     assert not replay.ok
-    limits = all_limiting(yardsticks_of(task), replay)
+    limits = all_limiting(normalisation_of(task), replay)
     for limit, reason in zip(limits, replay.reasons, strict=True):
         assert (grade(limit) == 0) == (reason >= 0)
 
@@ -423,9 +423,11 @@ def test_a_walkers_actions_are_told_from_what_they_change(walk: Walk) -> None:
 
 def test_a_walkers_limiting_check_has_the_smallest_share(walk: Walk) -> None:
     task, replay = walk
-    yardsticks = yardsticks_of(task)
-    for limit, row in zip(all_limiting(yardsticks, replay), replay.margins, strict=True):
-        shares = [margin / yardsticks.sizes[check.name] for check, margin in zip(yardsticks.checks, row, strict=True)]
+    normalisation = normalisation_of(task)
+    for limit, row in zip(all_limiting(normalisation, replay), replay.margins, strict=True):
+        shares = [
+            margin / normalisation.sizes[check.name] for check, margin in zip(normalisation.checks, row, strict=True)
+        ]
         assert limit is not None
         assert limit.share == pytest.approx(min(1.0, *shares))
 

@@ -4,17 +4,25 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ClamberError
+from ..families.climber.trials.plan_repair import LearnedPlan
+from ..family import family_of
 from ..inspection.open_file import kind_of
 from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import open_plan
+from ..planning.reach.reach import Reach, choose_layer
 from ..planning.result import PlanResult
+from ..planning.sweep import Sweep
 from ..tasks import Task, load_task
 from ..trials.dynamics import CarriedOut
-from ..viewing.alone import draw_alone, open_alone, shown_alone
+from ..trials.trial_runs import Trials
+from ..trials.work import dynamics_of
+from ..viewing.alone import alone_of, draw_alone, open_alone, shown_alone
 from ..viewing.output import CANVASES
 from ..viewing.pictures import animate, draw_route, draw_run, draw_stance
+from ..viewing.reach_plot import draw_reach
+from ..viewing.sweep_plot import draw_sweep
 
 
 class NotDrawnError(ClamberError):
@@ -25,16 +33,18 @@ class NotDrawnError(ClamberError):
         self.kind = kind
 
     def __str__(self) -> str:
-        return f"a {self.kind} cannot be drawn; tasks, plans, answers, runs and comparisons can, and by name or file robots and worlds, too"
+        return f"a {self.kind} cannot be drawn; robots, worlds, tasks, plans, runs and what other functions answer can; of a walk, its run"
 
 
-def draw(what: Any, path: str | Path, *, step: int | None = None) -> Path:
-    """Draw a task, a plan, a planner's answer, a run or a comparison; the file's suffix says how.
+def draw(what: Any, path: str | Path, *, step: int | None = None, layer: str | None = None) -> Path:
+    """Draw a robot, a world, a task, a plan, a planner's answer, a run or what many of them came to; the file's suffix says how.
 
     Args:
-        what: What `load_task`, `plan`, `run` or `compare` gave, a `Plan`, or the name or file of a task, a plan, a robot or a world.
-        path: A picture (.png, .svg, .pdf), or, of a plan or a run, an animation (.gif, .html, .mp4); of a run also its log (.csv, .mcap).
+        what: What the other functions gave, or the name or file of a task, a plan, a robot or a world.
+        path: A picture (.png, .svg, .pdf), or, of a plan or a run, an animation (.gif, .mp4); of a run also its log (.csv, .mcap). What
+            the viewer shows can be a page (.html).
         step: Of a plan: the stance after this action, 0 for the start; None: all of it.
+        layer: Of what `reach` gave: what is shown of every place, such as "force" or "steps"; None: the family's first.
 
     Returns:
         The path.
@@ -46,24 +56,46 @@ def draw(what: Any, path: str | Path, *, step: int | None = None) -> Path:
     file = Path(path)
     if isinstance(what, CarriedOut):
         draw_run(what, file)
+    elif file.suffix.lower() == ".html":
+        from ..viewing.browser.page import write_page
+        from .viewing import exhibit_for  # loads the viewer
+
+        write_page(exhibit_for((what.plan if isinstance(what, LearnedPlan) else what,)), file)
     elif isinstance(what, LimbResult):
         draw_comparison(what, file)
+    elif isinstance(what, Trials):
+        dynamics_of(family_of(what.setup.work)).draw_trials(what, file)
+    elif isinstance(what, Sweep):
+        draw_sweep(what, file)
+    elif isinstance(what, Reach):
+        draw_reach(what, choose_layer(what.task, layer), file)
     elif isinstance(what, PlanResult):
         _draw_plan(what.task, what.plan, file, step)
-    elif isinstance(what, Plan):
-        _draw_plan(what.rebuild_task(), what, file, step)
+    elif isinstance(what, Plan | LearnedPlan):
+        plan = what if isinstance(what, Plan) else what.plan
+        _draw_plan(plan.rebuild_task(), plan, file, step)
     elif isinstance(what, Task):
         draw_stance(what, None, 0, file)
-    elif isinstance(what, str) and shown_alone(kind := kind_of(what)):
-        draw_alone(open_alone(what, kind), file)
-    elif isinstance(what, str) and kind_of(what) == "task":
-        draw_stance(load_task(what), None, 0, file)
-    elif isinstance(what, str) and kind_of(what) == "plan":
-        opened = open_plan(what)
-        _draw_plan(opened.task, opened.plan, file, step)
+    elif isinstance(what, str | Path):
+        _draw_named(str(what), file, step)
+    elif (alone := alone_of(what)) is not None:
+        draw_alone(alone, file)
     else:
         raise NotDrawnError(type(what).__name__)
     return file
+
+
+def _draw_named(what: str, file: Path, step: int | None) -> None:
+    kind = kind_of(what)
+    if shown_alone(kind):
+        draw_alone(open_alone(what, kind), file)
+    elif kind == "task":
+        draw_stance(load_task(what), None, 0, file)
+    elif kind == "plan":
+        opened = open_plan(what)
+        _draw_plan(opened.task, opened.plan, file, step)
+    else:
+        raise NotDrawnError(kind)
 
 
 def _draw_plan(task: Any, plan: Plan, file: Path, step: int | None) -> None:

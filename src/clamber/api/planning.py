@@ -6,22 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ConfigDict, TypeAdapter, ValidationError
 
 from ..errors import OptionError, PlannerError, SpecError
 from ..inspection.finding import Finding
-from ..inspection.open_file import inspect_file
+from ..inspection.open_file import inspect_file, inspect_thing, kind_of
 from ..planning.exact.costs import read_costs
-from ..planning.openings.find import Openings
-from ..planning.openings.find import find_openings as _find_openings
+from ..planning.infeasibility.find import InfeasibilityExplanation
+from ..planning.infeasibility.find import explain_infeasibility as _find_openings
 from ..planning.planners import accepts, find_planner
 from ..planning.problem.plan import Plan
-from ..planning.problem.plan_source import open_plan
+from ..planning.problem.plan_source import is_plan, open_plan
 from ..planning.problem.problems import plan_family
 from ..planning.problem.verdict import Verdict, check_plan
 from ..planning.result import PlanResult, Status, furthest_of
 from ..tasks import Task, load_task
 from ..types import Ints
+from .options import check_kind, short
 
 USUAL = {"seed": 0, "seconds": None, "threads": None}
 """Options that are left away where a planner has none of the kind."""
@@ -64,7 +64,7 @@ def task_of(task: Any) -> Task:
         return load_task(str(task))
     if not isinstance(task, Task):
         raise OptionError(
-            "task", f"{_short(task)} is no task", "give one of `clamber.load_task`, or a task's name or file"
+            "task", f"{short(task)} is no task", "give one of `clamber.load_task`, or a task's name or file"
         )
     return task
 
@@ -72,20 +72,8 @@ def task_of(task: Any) -> Task:
 def _check_option(name: str, value: Any, parameter: Parameter | None) -> None:
     """Make sure that an option of a planner is of the kind that it takes, and no number below 0."""
     kind = None if parameter is None or isinstance(parameter.annotation, str) else parameter.annotation
-    if parameter is None or kind is None or kind is Parameter.empty:
-        return
-    words = getattr(kind, "__name__", None) if isinstance(kind, type) else str(kind)
-    try:
-        TypeAdapter(kind, config=ConfigDict(arbitrary_types_allowed=True)).validate_python(value, strict=True)
-    except ValidationError:
-        raise OptionError(name, f"{_short(value)} is not what it takes", f"it takes {words}") from None
-    if isinstance(value, int | float) and not value >= 0:
-        raise OptionError(name, f"{value} is below 0, or no number", "it must be 0 or more")
-
-
-def _short(value: Any) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
+    if kind is not None and kind is not Parameter.empty:
+        check_kind(name, value, kind)
 
 
 def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, *, go_on: bool = False) -> Verdict:
@@ -103,12 +91,16 @@ def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, 
         ClamberError: If the plan cannot be read, or has actions that the task has not.
     """
     if isinstance(what, str | Path):
+        if not is_plan(str(what)):
+            raise OptionError(
+                "what", f"'{what}' is a {kind_of(str(what))}", "give a plan; `clamber.inspect` looks at the rest"
+            )
         opened = open_plan(what, task if isinstance(task, str) else None)
         return check_plan(opened.task if task is None or isinstance(task, str) else task, opened.plan, go_on=go_on)
     made = what.plan if isinstance(what, PlanResult) else what
     if not isinstance(made, Plan):
         raise OptionError(
-            "what", f"{_short(what)} is no plan", "give a plan, a planner's answer, or a plan's name or file"
+            "what", f"{short(what)} is no plan", "give a plan, a planner's answer, or a plan's name or file"
         )
     if task is None:
         own: Task = what.task if isinstance(what, PlanResult) else made.rebuild_task()
@@ -117,22 +109,30 @@ def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, 
     return check_plan(own, made, go_on=go_on)
 
 
-def inspect(what: str | Path) -> Finding:
-    """What a robot's, board's, ground's, task's or walk's file is, whether a task's start holds, and what is odd about it.
+def inspect(what: Any) -> Finding:
+    """What a robot, board, ground, world, task or walk is, whether a task's start holds, and what is odd about it.
 
     Args:
-        what: Its name or file.
+        what: Its name or file, or what a `load_...` function gave.
 
     Returns:
         The finding: `kind`, `ok`, `facts`, `margins` of a task's start, `odd`.
 
     Raises:
+        OptionError: If it is none of these.
         ClamberError: If it breaks a rule of its format; the error names file and key.
     """
-    return inspect_file(str(what))
+    if isinstance(what, str | Path):
+        return inspect_file(str(what))
+    finding = inspect_thing(what)
+    if finding is None:
+        raise OptionError("what", f"{short(what)} is no robot, world or task", "give one, or its name or file")
+    return finding
 
 
-def find_openings(task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None) -> Openings:
+def explain_infeasibility(
+    task: Task | PlanResult | str, *, seconds: float = 60.0, threads: int | None = None
+) -> InfeasibilityExplanation:
     """Which single, smallest changes of an infeasible task would allow a plan.
 
     Args:

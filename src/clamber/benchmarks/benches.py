@@ -9,6 +9,7 @@ from typing import Final
 
 import numpy as np
 
+from ..errors import how_to_install
 from ..families.walker.control.cooperative.closest import ReachSearch
 from ..families.walker.control.cooperative.cooperator import Cooperator
 from ..families.walker.control.cooperative.freedoms import freedoms_of, weights_of
@@ -18,6 +19,7 @@ from ..families.walker.robot.robot import build_walker
 from ..families.walker.trials.cooperative.chain_peers import CHAIN_PEERS, PERIOD, Tick
 from ..families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
 from ..families.walker.trials.cooperative.tool_path import load_tool_path
+from ..interrupts import abandonable
 from ..planning.exact.explore import explore
 from ..planning.exact.planner import plan_exact
 from ..planning.genetic.profile import load_profile
@@ -34,6 +36,8 @@ from .peers import race_rows
 from .planner_trials import Crew, bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
 from .plant_bench import plant_rows
 from .rows import NOTHING, Row, Say, keep_quiet
+from .space_seeds import bench_worlds
+from .space_speed import space_rows
 from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of
@@ -95,7 +99,7 @@ def peer_rows(*, rounds: int = ROUNDS, steps: int = PEER_STEPS, say: Say = keep_
     rows = []
     for name, make in CHAIN_PEERS.items():
         if not installed(name):
-            rows.append(Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "ratio"))
+            rows.append(Row(f"{name} (not installed: {how_to_install('bench')})", NOTHING, "ratio"))
             continue
         say(f"{name} on the same chain")
         ours = partial(_step_often, _law(run, limited=True), run, weights_of("all", 4), 10 * steps)
@@ -164,7 +168,7 @@ def bench_exact(*, cases: tuple[Case, ...] = CASES, say: Say = keep_quiet) -> li
         task = load_task(case.task, (NO_HANGS, *case.overrides))
         problem = pose_problem(task, threads=1).problem
         started = time.perf_counter()
-        plain = breadth_first(problem, most_stances=MOST_STANCES)
+        plain = abandonable(partial(breadth_first, problem, most_stances=MOST_STANCES))
         plain_seconds = time.perf_counter() - started
         started = time.perf_counter()
         seen = explore(problem.informed(), most_stances=MOST_STANCES)
@@ -250,11 +254,13 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "climb": climb_rows,
     "plant": plant_rows,
     "hexapod": hexapod_rows,
+    "spatial": space_rows,
+    "worlds": bench_worlds,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 
 
-BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps")
+BATCHED: Final = ("seeds", "ablation", "jobs", "boards", "gaps", "worlds")
 """Those that are batches of items and take a `crew`; the others measure speed, alone."""
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ..execution.sequencer import Sequencer
 from ..families.climber.execution.climb_trace import TracedClimber
 from ..families.climber.execution.climbing import Climbing
-from ..families.climber.execution.course import lay_course
+from ..families.climber.execution.executable_plan import lay_course
 from ..families.climber.planning.plans import thesis_code
 from ..families.climber.planning.task import LimbedTask
 from ..families.climber.sim.climber_plant import ClimberPlant

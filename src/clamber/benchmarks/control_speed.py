@@ -13,6 +13,7 @@ import numpy as np
 from ..control.chain import Chain
 from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
+from ..errors import how_to_install
 from ..execution.closed_loop import close_loop
 from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
 from ..families.climber.robot.robot import build_limbed
@@ -217,7 +218,7 @@ def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_
     rows = []
     for name, make in IK_PEERS.items():
         if not installed(name):
-            rows.append(Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "ratio"))
+            rows.append(Row(f"{name} (not installed: {how_to_install('bench')})", NOTHING, "ratio"))
             continue
         say(f"{name} on the same arm")
         controller = Controller(limb.chain, law_named("resolved-rate"), period=0.005)

@@ -5,13 +5,14 @@ from typing import Final
 
 import numpy as np
 
+from ..interrupts import answer
 from ..planning.problem.problem import Records
 from ..planning.progress import Listener
 from ..planning.result import PlanResult
 from ..planning.stance_table import scratch_for, table_size
 from ..tasks import Task
 from .mcts_kernels import CHECKS, DEAD, EDGES, NODES, TABU, Lines, Manner, Tree, enter, simulate
-from .rivals import LONGEST, MAX_CHECKS, Hunt, guidance
+from .rivals import LONGEST, MAX_CHECKS, SearchBudget, guidance
 
 MAX_STANCES: Final = 500_000
 """Nodes kept unless told otherwise: about 160 bytes each for the climber, edges included. A full tree is dropped, and a new
@@ -61,7 +62,7 @@ def plan_mcts(
     Args:
         task: What to plan.
         seed: Same seed, same plan.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge.
         max_stances: Memory: most nodes of the tree.
@@ -74,7 +75,7 @@ def plan_mcts(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt = Hunt("mcts", task, seed, max_checks, seconds, progress)
+    hunt = SearchBudget("mcts", task, seed, max_checks, seconds, progress)
     tree = _Tree(hunt, min(max_stances, max_checks + 1), settings or Settings())
     try:
         before = -1
@@ -83,6 +84,7 @@ def plan_mcts(
             tree.descend()
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     return hunt.result()
 
@@ -96,7 +98,7 @@ def luby(k: int) -> int:
 class _Tree:
     """The arrays of a search, and one descent through them."""
 
-    def __init__(self, hunt: Hunt, most: int, settings: Settings) -> None:
+    def __init__(self, hunt: SearchBudget, most: int, settings: Settings) -> None:
         problem = hunt.problem
         self.hunt, self.settings = hunt, settings
         self.descents = 0

@@ -10,7 +10,7 @@ from ..planning.problem.family_kernels import candidates, key, restore, step
 from ..planning.problem.randoms import below, draw
 from ..planning.stance_table import slot_of
 from ..types import Floats, Ints
-from .rival_kernels import wander
+from .rival_kernels import random_walk
 
 NODES, EDGES, CHECKS, NUMBER = 0, 1, 2, 3
 """Places in the state: nodes, edges, actions judged, simulations so far."""
@@ -196,7 +196,7 @@ def simulate(p, weights, tree, room, state, at, how, lines):
                 steps += 1
                 restore(p, keys[node], stances[0])
         limits = (min(how.horizon, longest - depth - steps), most_checks - state[CHECKS])
-        actions, value, judged, reached = wander(p, room, weights, how.again, limits, (seed, number, -1), trail)
+        actions, value, judged, reached = random_walk(p, room, weights, how.again, limits, (seed, number, -1), trail)
         state[CHECKS] += judged
         scale[0] = min(scale[0], value)
         scale[1] = max(scale[1], value)

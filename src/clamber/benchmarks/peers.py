@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ..errors import how_to_install
 from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
 from ..planning.genetic.profile import load_profile
 from ..planning.problem.problem import CompiledProblem
@@ -221,7 +222,7 @@ PLAIN_TASK: Final = "ladder"
 
 
 @dataclass(frozen=True, slots=True)
-class Course:
+class RaceTask:
     """A task to race on."""
 
     task: str
@@ -230,10 +231,10 @@ class Course:
     """Genes per plan for libraries whose plans all have the same length: half as many again as our first plans need."""
 
 
-COURSES: Final = (
-    Course("ladder", "ladder, 3 in", 80),
-    Course("modified-ladder", "modified-ladder", 150),
-    Course("h", "h", 200),
+RACE_TASKS: Final = (
+    RaceTask("ladder", "ladder, 3 in", 80),
+    RaceTask("modified-ladder", "modified-ladder", 150),
+    RaceTask("h", "h", 200),
 )
 
 
@@ -244,7 +245,7 @@ def installed(peer: str) -> bool:
 
 def race_rows(
     *,
-    courses: Iterable[Course] = COURSES,
+    courses: Iterable[RaceTask] = RACE_TASKS,
     seeds: tuple[int, ...] = SEEDS,
     seconds: float = SECONDS,
     plain_seconds: float = PLAIN_SECONDS,
@@ -267,7 +268,7 @@ def race_rows(
 
 def _rows(name: str, runs: list[Race], seeds: int, seconds: float) -> list[Row]:
     if not runs:
-        return [Row(f"{name} (not installed: pip install 'clamber[bench]')", NOTHING, "plans/s")]
+        return [Row(f"{name} (not installed: {how_to_install('bench')})", NOTHING, "plans/s")]
     found = sum(run.success is not None for run in runs)
     return [
         Row(f"{name}: plans per second, median of {seeds} seeds", median(run.rate for run in runs), "plans/s"),
@@ -284,7 +285,7 @@ def _plain_rows(seconds: float, say: Say) -> list[Row]:
     module = plain_module()
     if module is None:
         return [Row(f"{PLAIN_TASK}, plain evaluator (needs a checkout: it lies in the tests)", NOTHING, "plans/s")]
-    course = next(course for course in COURSES if course.task == PLAIN_TASK)
+    course = next(course for course in RACE_TASKS if course.task == PLAIN_TASK)
     task: Any = load_task(course.task)
     problem: CompiledProblem = PlainProblem(task, pose_problem(task, threads=1).problem.actions, module)
     rows = []

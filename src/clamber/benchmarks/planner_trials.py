@@ -6,6 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from statistics import median
+from threading import Event
 from typing import Any, Final
 
 from ..errors import ClamberError
@@ -17,6 +18,7 @@ from ..planning.genetic.planner import plan_genetic
 from ..planning.genetic.profile import Profile, load_profile
 from ..planning.learning import learn_macros
 from ..planning.problem.problems import pose_problem
+from ..planning.progress import ProgressEvent
 from ..specs import build_spec
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
@@ -147,6 +149,11 @@ def run_trials(
     macros: Sequence[Macro] = (),
 ) -> Trials:
     """Plan a task with each seed, one thread per plan and as many plans at once as there are cores."""
+    stopped = Event()
+
+    def look(_: ProgressEvent) -> None:
+        if stopped.is_set():
+            raise KeyboardInterrupt  # which only the main thread gets by itself
 
     def trial(seed: int) -> tuple[int | None, int | None, int | None]:
         result = plan_genetic(
@@ -157,13 +164,19 @@ def run_trials(
             threads=1,
             filters=filters,
             macros=macros,
+            progress=look,
         )
         if result.status != "found":
             return None, None, None
         return result.first_evaluations, result.first_length, result.length
 
     with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="trial") as pool:
-        told = list(pool.map(trial, seeds))
+        try:
+            told = list(pool.map(trial, seeds))
+        except KeyboardInterrupt:
+            stopped.set()
+            pool.shutdown(cancel_futures=True)
+            raise
     evaluations, first_lengths, lengths = zip(*told, strict=True)
     return Trials(evaluations, first_lengths, lengths)
 

@@ -17,7 +17,7 @@ from ..execution.posture_guard import PostureGuard
 from ..execution.sequencer import Sequencer
 from ..families.climber.execution.climb_trace import TracedClimber
 from ..families.climber.execution.climbing import Climbing
-from ..families.climber.execution.course import lay_course
+from ..families.climber.execution.executable_plan import lay_course
 from ..families.climber.execution.wiring import guard_of, wiring_of
 from ..families.climber.planning.plans import thesis_code
 from ..families.climber.planning.task import LimbedTask

@@ -37,7 +37,7 @@ def worth(p, s, weights, row):
 
 
 @kernel
-def wander(p, room, weights, again, limits, counters, trail):
+def random_walk(p, room, weights, again, limits, counters, trail):
     """One random walk: every action is drawn from those that hold, and what the walk is worth is its best prefix.
 
     Args:
@@ -105,8 +105,8 @@ def burst(p, here, room, weights, how, counters, lines, found):
     Args:
         p: A family's parameters.
         here: Where the walks begin, array of one record; the best walk's end on return.
-        room, weights: As in `wander`.
-        how: The probability `again` of `wander`, how many walks, most actions of one, and most actions to judge.
+        room, weights: As in `random_walk`.
+        how: The probability `again` of `random_walk`, how many walks, most actions of one, and most actions to judge.
         counters: Two, of the random numbers.
         lines: Scratch for the actions of a walk; output: those of the best walk.
         found: Worth to be exceeded.
@@ -125,7 +125,7 @@ def burst(p, here, room, weights, how, counters, lines, found):
             break
         stances[0] = here[0]
         limits = (most, most_checks - checks)
-        actions, value, judged, reached = wander(p, room, weights, again, limits, (seed, number, walk), trail)
+        actions, value, judged, reached = random_walk(p, room, weights, again, limits, (seed, number, walk), trail)
         checks += judged
         if reached or value > found:
             found = value

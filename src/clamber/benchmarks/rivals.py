@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ..interrupts import answer
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import listed_problem, plan_family
@@ -45,7 +46,7 @@ LONGEST: Final = 400
 
 
 @dataclass(slots=True)
-class Hunt:
+class SearchBudget:
     """A rival at work: what it has spent and the best that it has."""
 
     planner: str
@@ -158,7 +159,7 @@ def plan_greedy(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge; a stance being expanded is finished.
         max_stances: Memory: most stances kept.
@@ -170,7 +171,7 @@ def plan_greedy(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt = Hunt("greedy", task, seed, max_checks, seconds, progress)
+    hunt = SearchBudget("greedy", task, seed, max_checks, seconds, progress)
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     capacity = min(max_stances, max_checks + 1) + problem.branching
@@ -197,6 +198,7 @@ def plan_greedy(
             hunt.value = float(nodes.value[state[BEST]])
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     end = max(0, int(state[GOAL])) if status == FOUND else int(state[BEST])
     hunt.value = -np.inf
@@ -237,7 +239,7 @@ def plan_random(
     Args:
         task: What to plan.
         seed: Same seed, same plan.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search runs on one.
         max_checks: Most actions to judge.
         progress: Called now and then.
@@ -249,7 +251,7 @@ def plan_random(
     Raises:
         PlannerError: If the task allows actions that can't be listed one by one.
     """
-    hunt, made = Hunt("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
+    hunt, made = SearchBudget("random", task, seed, max_checks, seconds, progress), bursts or Bursts()
     problem = hunt.problem
     params, weights = problem.params.record, guidance(problem)
     room = scratch_for(problem, 3)
@@ -277,5 +279,6 @@ def plan_random(
                 hunt.take(way, value, found=reached)
             hunt.tell()
     except KeyboardInterrupt:
+        answer()
         hunt.interrupted = True
     return hunt.result()

@@ -1,3 +1,31 @@
 """The command `clamber`: one file or folder per command; they read options, call the package and print what it answers."""
 
-from .app import main as main
+import sys
+from collections.abc import Sequence
+from typing import Final
+
+from ..interrupts import answer, asked, listening
+
+INTERRUPTED: Final = 130
+"""Exit code after Ctrl-C: that of a process which SIGINT ends, in shells."""
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run a command and leave with its exit code; after Ctrl-C with 130, whatever it could still tell.
+
+    Args:
+        arguments: Words after `clamber`; None takes those of the process.
+    """
+    code: int | str | None = INTERRUPTED
+    with listening():
+        try:
+            from .app import run  # what it imports takes a while, in which there may be a Ctrl-C, too
+
+            code = run(arguments)
+        except KeyboardInterrupt:
+            pass
+        answer()
+    if asked() and code in (None, 0, 1, INTERRUPTED):
+        print("clamber: interrupted", file=sys.stderr)
+        code = INTERRUPTED
+    sys.exit(code)

@@ -16,10 +16,11 @@ from typer.core import TyperCommand, TyperGroup
 
 from .. import __version__
 from ..errors import ClamberError, printable
+from ..interrupts import unanswered
 from ..terminal.command_end import until_command_ends
 from ..terminal.options import UnitsChoice
 from ..terminal.output import fall_silent
-from .commands import add_commands
+from .commands import add_commands, under_new_name
 
 SECONDS: Final = 600.0
 """Of a bench's run [s]: 120 000 samples of every signal at 200 Hz."""
@@ -40,7 +41,7 @@ LARGEST: Final[dict[str, tuple[float, str]]] = {
     "stances": (10**9, "each is kept in memory"),
 }
 """Parameter -> its largest value and why."""
-BENCHES: Final = ("limb", "body", "press")
+BENCHES: Final = ("limb", "body", "hold-force")
 """Commands that keep every sample of a run."""
 RUNS: Final = ("seconds", "lap", "to", "from_")
 """Their parameters that are times of the run [s]."""
@@ -97,7 +98,7 @@ def _whole_names(format_help: Any) -> Any:
     return format_whole
 
 
-SHOWS_UNITS: Final = ("check", "plan", "polish", "reach", "rehearse", "run", "show", "sweep", "trials", "view")
+SHOWS_UNITS: Final = ("check", "plan", "reach", "run", "shorten", "show", "sweep", "trials", "validate", "view")
 """Commands that print or draw quantities of a task."""
 
 
@@ -183,13 +184,21 @@ def _options(
     pass
 
 
-def main(arguments: Sequence[str] | None = None) -> None:
-    """Run a command and leave with its exit code; the user's mistakes come out as one message on stderr.
+def run(arguments: Sequence[str] | None = None) -> int | str | None:
+    """Run a command; the user's mistakes come out as one message on stderr.
 
     Args:
         arguments: Words after `clamber`; None takes those of the process.
+
+    Returns:
+        The exit code.
+
+    Raises:
+        KeyboardInterrupt: After Ctrl-C, where the command does not end with what there is.
     """
-    words = sys.argv[1:] if arguments is None else list(arguments)
+    words, renamed = under_new_name(sys.argv[1:] if arguments is None else arguments)
+    if renamed is not None:
+        print(renamed, file=sys.stderr)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper) and not stream.encoding.lower().startswith("utf"):
             stream.reconfigure(errors="replace")  # a letter that the terminal has not is a "?", and no traceback
@@ -197,30 +206,43 @@ def main(arguments: Sequence[str] | None = None) -> None:
     completes = "_CLAMBER_COMPLETE" in os.environ  # the words come another way
     try:
         command = command_of(application(None if completes else called))
-        sys.exit(command(args=words, prog_name="clamber", standalone_mode=False))
+        return _called(command, words)
+    except SystemExit as end:
+        return end.code
     except ClamberError as error:
         print(printable(f"clamber: {error}"), file=sys.stderr)
-        sys.exit(2)
+        return 2
     except typer.TyperException as error:  # words that are no options, or not what options take
         from typer.rich_utils import rich_format_error
 
         error.message = printable(error.message)
         rich_format_error(cast(Any, error))
-        sys.exit(error.exit_code)
+        return error.exit_code
     except typer.Abort as error:  # Typer's word for a file that ended too early
-        _leave_unexpectedly(error.__cause__ or error, words)
+        return _told_unexpected(error.__cause__ or error, words)
     except MemoryError:
         print("clamber: needs more memory than there is; ask for less", file=sys.stderr)
-        sys.exit(2)
+        return 2
     except Exception as error:
-        _leave_unexpectedly(error, words)
+        return _told_unexpected(error, words)
     finally:
         fall_silent()
         until_command_ends.close()
 
 
-def _leave_unexpectedly(error: BaseException, words: Sequence[str]) -> None:
+def _called(command: Command, words: Sequence[str]) -> int | None:
+    """The exit code of a command; what goes wrong in it after Ctrl-C that nobody has answered is taken for what came of that."""
+    try:
+        code: int | None = command(args=words, prog_name="clamber", standalone_mode=False)
+    except Exception as error:
+        if unanswered():
+            raise KeyboardInterrupt from error
+        raise
+    return code
+
+
+def _told_unexpected(error: BaseException, words: Sequence[str]) -> int:
     from .unexpected import UNEXPECTED, unexpected
 
     print(unexpected(error, words), file=sys.stderr)
-    sys.exit(UNEXPECTED)
+    return UNEXPECTED

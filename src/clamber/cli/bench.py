@@ -1,7 +1,7 @@
 """`clamber bench`: measure speed and success, beside peers."""
 
 import shlex
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from rich.console import Console
 
-from ..terminal.crew import EndsLine, check_resume, executor_of
+from ..interrupts import answer, passed_on
 from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
 from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.worker_options import Batch, EndsLine, check_resume, executor_of, keeping
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -39,24 +40,38 @@ def bench(
     chosen = tuple(names or BENCHES)
     only = chosen[0] if len(chosen) == 1 else None
     _check_asked(chosen, only, batch=bool(workers or ray or store), own_crew=bool(workers or store), output=output)
-    line = EndsLine(stderr(), "items", quiet=False)
-    crew = Crew(executor=executor_of(ray, workers), store=store, resume=resume, progress=line.update)
+    executor = executor_of(ray, workers)
     if ray is not None:
-        crew.executor.check()
+        executor.check()
     if ray is None and only != "start":
         announce_compilation()
+
+    def crew_of(batch: Batch) -> "Crew":
+        return Crew(executor=executor, store=batch.store, resume=resume, progress=batch.line.update)
+
     if only == "boards":
-        bench_boards(crew, output=output, as_json=as_json)
+        bench_boards(crew_of, store, output=output, as_json=as_json)
         return
     from ..execution.plant import PlantStoppedError
 
     measured = {}
     for name in chosen:
-        stderr().print(f"measuring {name}")
+        line = EndsLine(stderr(), f"items of {name}", quiet=False)
         try:
-            measured[name] = run_bench(name, partial(stderr().print, style="dim"), crew if name in BATCHED else None)
+            if name in BATCHED:
+                with keeping(store, line) as batch, passed_on():
+                    measured[name] = run_bench(name, partial(line.show, now=True), crew_of(batch))
+            else:
+                with line, passed_on():
+                    measured[name] = run_bench(name, partial(line.show, now=True))
         except PlantStoppedError as stop:
             stderr().print(f"{name} is left out: {stop}; is the machine too busy for a plant in real time?")
+        except KeyboardInterrupt:
+            answer()
+            stderr().print(f"interrupted while {name} was measured; told is what was measured before")
+            break
+        except typer.Exit:  # of a batch that was interrupted
+            break
     rows = [row for each in measured.values() for row in each]
     if output is not None:
         from ..benchmarks.starts import performance_page
@@ -98,11 +113,12 @@ def _check_asked(
 TABLES = (".md", ".csv")
 
 
-def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
+def bench_boards(crew_of: "Callable[[Batch], Crew]", store: Path | None, *, output: Path | None, as_json: bool) -> None:
     """Run the contest and print its tables.
 
     Args:
-        crew: Who runs the trials, and where they are kept.
+        crew_of: Who runs a batch.
+        store: Where its trials are kept.
         output: Picture, table (.md) or trials (.csv) to write.
         as_json: Print the rows as JSON.
     """
@@ -114,7 +130,8 @@ def bench_boards(crew: "Crew", *, output: Path | None, as_json: bool) -> None:
     from ..benchmarks.contest import run_contest
     from ..benchmarks.tables import rows_of, save_markdown, save_trials
 
-    contest = run_contest(crew=crew)
+    with keeping(store, EndsLine(stderr(), "trials", quiet=False)) as batch:
+        contest = run_contest(crew=crew_of(batch))
     if output is not None and output.suffix.lower() not in TABLES:
         from ..benchmarks.pictures.boards_plot import draw_boards
 

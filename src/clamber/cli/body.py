@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from ..terminal.crew import EndsLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, FlawsChoice, Output, Quiet, takes_options
 from ..terminal.output import announce_compilation, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine
 from .limb.options import MatchChoice, check_output, show_table, tell_written
 
 if TYPE_CHECKING:
@@ -252,10 +252,10 @@ def push(
     announce_compilation(quiet=words.quiet)
     told = {}
     for entry in words.build_entries(stand):
-        line = EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet)
-        told[entry.label] = push_trials(
-            stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
-        )
+        with EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet) as line:
+            told[entry.label] = push_trials(
+                stand, entry, flaws, force=size, seconds=seconds, trials=trials, seed=seed, progress=line.update
+            )
     if words.as_json:
         print_json(told)
     else:

@@ -153,9 +153,9 @@ def _differs(row: "StepVerdict") -> bool:
 
 
 def _summary(verdict: "Verdict") -> str:
-    from ..units import DEGREE
+    from ..planning.problem.body_pose import describe_body_pose
 
-    units, (x, y, theta) = verdict.units, verdict.pose
+    units = verdict.units
     unit, size, digits = units.torque
     held = ", ".join(f"{limb} {hold or 'free'}" for limb, hold in verdict.holds.items())
     loaded = any(check.name == "torque" for check in verdict.checks)
@@ -166,7 +166,7 @@ def _summary(verdict: "Verdict") -> str:
         f"{verdict.steps} of {verdict.length} actions of '{verdict.task}' hold; "
         f"{reached} ({verdict.goals_met} of {verdict.goals})\n"
         f"{f'{torque}energy {verdict.energy:.0f} J' + chr(10) if loaded else ''}"
-        f"end: x {units.length(x)}, y {units.length(y)}, theta {theta / DEGREE + 0.0:.1f} deg{held}"
+        f"end: {describe_body_pose(verdict.pose_axes, verdict.pose, units)}{held}"
     )
 
 

@@ -1,6 +1,7 @@
 """The commands of `clamber`, each with its place. A command's module is imported only where the command is called."""
 
 import ast
+from collections.abc import Sequence
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -13,7 +14,7 @@ from ..family import BUILT_IN, families, family_named
 COMMANDS: Final = {
     "list": "list:list_names",
     "plan": "plan.command:plan",
-    "polish": "polish:polish",
+    "shorten": "shorten:shorten",
     "learn": "learn:learn",
     "inventory": "inventory:inventory",
     "check": "check:check",
@@ -30,6 +31,8 @@ COMMANDS: Final = {
     "doctor": "doctor:doctor",
 }
 """Command -> module in this folder and function in it, in the order in which they are listed."""
+RENAMED: Final = {"polish": "shorten", "rehearse": "validate", "press": "hold-force", "most": "max-setting"}
+"""Old name of a command, read for one release -> its name."""
 GROUPS: Final = {
     "limb": "limb.commands:limb",
     "body": "body:body",
@@ -64,7 +67,17 @@ def groups(only: str | None = None) -> dict[str, str]:
     return {name: f"{__package__}.{place}" for name, place in GROUPS.items()} | _of_families("groups", only)
 
 
-def _read(place: str) -> Any:
+def under_new_name(words: Sequence[str]) -> tuple[list[str], str | None]:
+    """The words after `clamber` with the name that their command has now, and a line about it where it was called by an old one."""
+    at = next((at for at, word in enumerate(words) if not word.startswith("-")), None)
+    if at is None or words[at] not in RENAMED:
+        return list(words), None
+    name = RENAMED[words[at]]
+    line = f"clamber: the command '{words[at]}' is called '{name}' now; the old name will go with the next release"
+    return [*words[:at], name, *words[at + 1 :]], line
+
+
+def read_place(place: str) -> Any:
     """The function or the group at a place."""
     module, name = place.split(":")
     return getattr(import_module(module), name)
@@ -96,12 +109,12 @@ def add_commands(app: typer.Typer, only: str | None = None) -> None:
     listed = only not in single | grouped  # else nobody sees the lines of the others
     for name, place in single.items():
         if only in (None, name):
-            app.command(name)(_read(place))
+            app.command(name)(read_place(place))
         else:
             app.command(name, help=first_paragraph(place) if listed else None)(_nothing)
     for name, place in grouped.items():
         if only in (None, name):
-            app.add_typer(_read(place), name=name)
+            app.add_typer(read_place(place), name=name)
         else:
             help_line = first_paragraph(place) if listed else None
             app.add_typer(typer.Typer(help=help_line, callback=_nothing), name=name)

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import typer
 from rich.console import Console
 
+from ..errors import how_to_install
 from ..terminal.options import AsJson
 from ..terminal.output import print_json, stdout
 from ..viewing.text_table import plain_table
@@ -51,7 +52,7 @@ def print_facts(console: Console, found: "Health") -> None:
         words = f"{_size(kernels.older_bytes)} in {kernels.older_folders} folders beside it"
         table.add_row("", f"{words}, of other versions: they can go")
     table.add_row("GL", found.gl or "none; pictures and the viewer do without")
-    table.add_row("ffmpeg", found.ffmpeg or 'none; MP4 needs it: pip install "clamber[video]"')
+    table.add_row("ffmpeg", found.ffmpeg or f"none; MP4 needs it: {how_to_install('video')}")
     table.add_row("browser", found.chromium or "no chromium; only tests need it")
     console.print(table)
     wrong = found.problems

@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
 
 import typer
 
+from ..family import BUILT_IN, family_named
 from ..json_form import Key
 from ..tasks.imported import ImportedLimb
 from ..terminal.name_completion import names_of
 from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
-from ..terminal.output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.output import announce_compilation, check_new, print_json, print_new
+from .commands import read_place
 
 if TYPE_CHECKING:
     from ..types import Json
@@ -120,6 +122,11 @@ class NewTask:
     """The start that was found, as the file has it."""
 
 
+for _family in BUILT_IN:
+    for _kind, _place in family_named(_family).starters.items():
+        new.command(_kind)(read_place(_place))
+
+
 @new.callback()
 def _kinds() -> None:
     """Write a file to start from: robot, board or task."""
@@ -141,7 +148,7 @@ def robot(
         raise typer.BadParameter("is for a made-up robot; take --limbs, --like or --from", param_hint="--limbs")
     if like is not None and model is not None:
         raise typer.BadParameter("are different robots to start from; take one", param_hint="--like, --from")
-    _check_new(output, force)
+    check_new(output, force)
     from ..files import write_atomically
     from .starters import imported_robot, robot_starter
 
@@ -167,7 +174,7 @@ def board(*, words: BoardOptions) -> None:
     words.check()
     board_file = words.board_file
     for path in (words.output, board_file):
-        _check_new(path, words.force)
+        check_new(path, words.force)
     from .new_files import points_data, random_data
     from .starters import board_starter, board_text
 
@@ -209,17 +216,29 @@ def _write_board(
 def task(
     robot: Annotated[
         str,
-        typer.Option(metavar="NAME|FILE", help="A climber (`clamber list robots`).", autocompletion=names_of("robots")),
+        typer.Option(
+            metavar="NAME|FILE",
+            help="A climber or a robot in space (`clamber list robots`).",
+            autocompletion=names_of("robots"),
+        ),
     ] = ROBOT,
     board: Annotated[
         str,
         typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).", autocompletion=names_of("boards")),
     ] = BOARD,
+    world: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME|FILE",
+            help="In place of a board, of a robot in space (`clamber list worlds`).",
+            autocompletion=names_of("worlds"),
+        ),
+    ] = None,
     like: Annotated[
         str | None,
         typer.Option(
             metavar="NAME|FILE",
-            help="Start from this task; its robot may be a walker.",
+            help="Start from this task; its robot may be any.",
             autocompletion=names_of("tasks"),
         ),
     ] = None,
@@ -231,44 +250,28 @@ def task(
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("task.toml"),
     as_json: AsJson = False,
 ) -> None:
-    """Write a task, from the lowest stance that the rules allow to the top of a board, whose file tells of every key."""
-    if like is not None and (overrides or (robot, board) != (ROBOT, BOARD)):
+    """Write a task whose file tells of every key: from the lowest stance on a board to its top, or along the guide of a world in space."""
+    if world is not None and board != BOARD:
+        raise typer.BadParameter("are worlds of different robots; take one", param_hint="--board, --world")
+    if like is not None and (overrides or (robot, board, world) != (ROBOT, BOARD, None)):
         raise typer.BadParameter(
             "has a robot, a board and rules of its own: edit them in the file", param_hint="--like"
         )
-    _check_new(output, force)
+    check_new(output, force)
     if like is None:
         announce_compilation()
     from ..files import write_atomically
     from .starters import task_starter
 
-    made = task_starter(output, robot, board, like, overrides or [])
+    made = task_starter(output, robot, board, like, overrides or [], world)
     write_atomically(output, made.text)
     told = f"task '{made.data['name']}' for robot '{made.data['robot']}'"
     following = f"clamber check {output}; clamber plan {output} --planner auto"
     _tell(NewTask({"task": str(output)}, made.data["name"], made.data["start"]), told, following, as_json)
 
 
-def _check_new(path: Path, force: bool) -> None:
-    """Makes sure that a file can be written, and that nobody's work is lost by it.
-
-    Raises:
-        FileError: If it can't, or is there already and `force` is not given.
-    """
-    from ..errors import FileError
-    from ..regular_files import is_there
-
-    check_writable(path)
-    if is_there(path) and not force:
-        raise FileError(str(path), "is there already", "name another file, or write over it with --force")
-
-
 def _tell(made: "NewBoard | NewRobot | NewTask", told: str, following: str, as_json: bool) -> None:
     if as_json:
         print_json(made)
-        return
-    console = stdout()
-    console.print(told)
-    for kind, path in made.written.items():
-        console.print(f"{kind} written to {path}", soft_wrap=True)
-    console.print(f"next: {following}", soft_wrap=True)
+    else:
+        print_new(made.written, told, following)

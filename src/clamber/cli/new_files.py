@@ -1,7 +1,6 @@
 """What `clamber new` writes: documents of boards and tasks, made from the command's words."""
 
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from ..families.climber.world.random_board import random_board_data
 from ..files import Document
 from ..json_form import Count
 from ..terminal.options import ROBOT
+from ..terminal.output import name_of
 from ..types import Json
 from ..units import parse_quantity
 
@@ -131,12 +131,6 @@ def describe_board(board: Json, written: dict[str, str]) -> NewBoard:
 
     gap = float(cKDTree(points).query(points, k=2)[0][:, 1].min()) if len(points) > 1 else None
     return NewBoard(written=written, name=built.name, holds=len(points), width_m=width, height_m=height, gap_m=gap)
-
-
-def name_of(path: Path, kind: str = "wall") -> str:
-    """A name for what a file describes, from the file's."""
-    stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem)[:56]
-    return stem if stem[:1].isalpha() else f"{kind}-{stem}"
 
 
 def _board(data: Json) -> Board:

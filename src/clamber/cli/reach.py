@@ -1,6 +1,7 @@
 """`clamber reach`: everything that a robot can ever reach."""
 
 import math
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -52,7 +53,7 @@ def reach(
     announce_compilation(quiet=told.quiet)
     from ..planning.reach.reach import find_reach
 
-    with FloodLine(stderr(), quiet=told.quiet) as line:
+    with FloodLine(stderr(), quiet=told.quiet, doing="seeing every stance") as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update
         )
@@ -70,10 +71,10 @@ def reach(
 
 
 class FloodLine(LiveLine):
-    """Follows a flood."""
+    """Follows an exploration."""
 
     def update(self, stances: int, poses: int, depth: int) -> None:
-        """Show one moment of the flood."""
+        """Show one moment of the exploration."""
         self.show(f"{stances} stances, {poses} poses tried, {depth} actions from the start")
 
 
@@ -90,6 +91,8 @@ def _print_reach(console: Console, reach: "Reach", layer: str, output: Path | No
         used = sum(bool(hold.limbs) for hold in reach.holds)
         never = f"; never used: {', '.join(map(str, reach.never_used))}" if reach.never_used else ""
         console.print(f"holds: {used} of {len(reach.holds)} are used{never if complete else ' so far'}")
+        by_limb = Counter(limb for hold in reach.holds for limb in hold.limbs)
+        console.print(f"of each limb: {', '.join(f'{limb} {by_limb[limb]}' for limb in reach.task.robot.limb_names)}")
     console.print(_layer_table(reach, layer))
     if reach.closed_by:
         closed = ", ".join(f"{name} {n}" for name, n in reach.closed_by.items())
@@ -108,7 +111,8 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     from ..planning.reach.reach import LAYERS
 
     shown, units = LAYERS[layer], units_of(reach.task.document)
-    heads = tuple(f"{axis} [{units.place[0]}]" for axis in "xy")
+    axes = reach.lattice.axes[:2]
+    heads = tuple(f"{axis.name} [{units.place[0]}]" for axis in axes)
     values = reach.places.floats(shown.column)
     order = np.argsort(values if shown.good else -values, kind="stable")
     order = order[~np.isnan(values[order])]
@@ -116,7 +120,7 @@ def _layer_table(reach: "Reach", layer: str) -> Table:
     rows = (("hardest place", 0), ("middle", len(order) // 2), ("easiest place", -1)) if len(order) else ()
     for words, rank in rows:
         at = order[rank]
-        place = [f"{reach.places.floats(name)[at] / units.place[1] + 0.0:.1f}" for name in ("x_m", "y_m")]
+        place = [f"{reach.places.floats(axis.column)[at] / units.place[1] + 0.0:.1f}" for axis in axes]
         table.add_row(
             words, _value(float(values[at]), shown.column, units), *(place if words != "middle" else ("", ""))
         )

@@ -20,8 +20,10 @@ from ..spec_text import spec_text
 from ..tasks.imported import ImportedRobot
 from ..tasks.library import load_task
 from ..tasks.robots import family_in, load_robot, read_robot, shipped
+from ..terminal.options import ROBOT as ROBOT_NAME
+from ..terminal.output import name_of
 from ..types import Json
-from .new_files import name_of, task_data
+from .new_files import task_data
 
 HOW: Final = (
     'A quantity is a text such as "15 cm", or { value = 15, unit = "cm", source = "datasheet" }.\n'
@@ -97,31 +99,57 @@ def board_text(data: Json, path: Path) -> str:
     return spec_text(BoardSpec, data, header=title, lead=lead, examples=EXAMPLES)
 
 
-def task_starter(path: Path, robot: str, board: str, like: str | None, overrides: Sequence[str]) -> Starter:
-    """A task's file: from the lowest stance on a board to its top, or one that there is, told key by key.
+def task_starter(
+    path: Path, robot: str, board: str, like: str | None, overrides: Sequence[str], world: str | None = None
+) -> Starter:
+    """A task's file, told key by key: from the lowest stance on a board to its top, along the guide of a world, or one that there is.
 
-    Paths of robot and board are from where the user stands; the file names them from where it lies.
+    Paths of robot, board and world are from where the user stands; the file names them from where it lies.
 
     Raises:
-        SpecError: If the board has no stance that the rules allow.
+        SpecError: If board or world have no stance that the rules allow.
         ClamberError: If there is no such robot, board or task.
     """
     name = name_of(path, "task")
-    if like is None:
+    family: Family = CLIMBER
+    own = None if like is not None else _family_with_worlds(robot, world)
+    if own is not None:
+        assert own.first_task is not None and world is not None
+        data, family = own.first_task(robot, world, name, overrides), own
+        data |= {key: _from(path, str(data[key])) for key in ("robot", own.files.world_key)}
+    elif like is None:
         data = task_data(read_board(board).data, board, path, overrides, robot) | {"name": name}
         data |= {"robot": _from(path, robot), "board": _from(path, board)}
-        family: Family = CLIMBER
     else:
         data, family = _task_like(like)
         data |= {"name": name}
-    world = family.files.world_key
+    key = family.files.world_key
     lead = (
         ("schema", data["schema"], "The format of this file."),
         ("robot", data["robot"], "Name (`clamber list robots`) or path of the robot's file, from here."),
-        (world, data[world], f"Name (`clamber list {world}s`) or path of the {world}'s file, from here."),
+        (key, data[key], f"Name (`clamber list {key}s`) or path of the {key}'s file, from here."),
     )
     title = f"A task; `clamber check {path.name}` says whether its start holds, and by how much.\n{HOW}"
     return Starter(data, spec_text(family.files.task_spec, data, header=title, lead=lead, examples=EXAMPLES))
+
+
+def _family_with_worlds(robot: str, world: str | None) -> Family | None:
+    """The family of a robot that stands in worlds in place of boards; None: it climbs boards.
+
+    Raises:
+        OptionError: If a world is named with a robot of another family, or none with one of this.
+    """
+    if robot == ROBOT_NAME and world is None:
+        return None
+    document = read_robot(robot)
+    family = family_in(document)
+    if (family.first_task is None) == (world is None):
+        return None if world is None else family
+    if world is None:
+        raise OptionError("--world", "is not given", f"a {family.title} such as '{robot}' needs one: clamber new world")
+    raise OptionError(
+        "--world", f"is no place for a {family.title} such as '{robot}'", "take a robot in space, or --board"
+    )
 
 
 def _data(document: Document, schema: str) -> Json:

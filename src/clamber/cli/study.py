@@ -1,23 +1,26 @@
 """`clamber study`: a paper's published results, ours beside the printed ones."""
 
 import time
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Final
 
 import typer
 from rich.console import Console
 
+from ..interrupts import answer, passed_on
 from ..studies.library import study_titles
-from ..terminal.crew import EndsLine, executor_of
+from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Quiet, Resume, Store, Workers, takes_options
 from ..terminal.output import announce_compilation, print_indented, print_json, stderr, stdout
+from ..terminal.worker_options import EndsLine, executor_of, keeping
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..studies.result import StudyResult
+    from ..studies.result import StudyResult, Verdict
     from ..studies.site import StudySite
 
 ALL = "all"
@@ -94,14 +97,19 @@ def study(
         if not (words.resume and site is not None and site.has(name, one))
     ]
     results: list[StudyResult] = []
-    for number, (name, chosen) in enumerate(wanted, start=1):
-        announce_compilation(quiet=words.quiet)
-        if not words.quiet:
-            stderr().print(f"{number} of {len(wanted)}: working on {chosen}")
-        began = time.perf_counter()
-        results.append(_repeat(name, chosen, words, seeded=result is not None))
-        if site is not None:
-            site.add(results[-1], began)
+    announce_compilation(quiet=words.quiet)
+    with StudyLine(stderr(), quiet=words.quiet) as line:
+        try:
+            for name, chosen in wanted:
+                line.begin(chosen, results, len(wanted))
+                began = time.perf_counter()
+                with passed_on():
+                    results.append(_repeat(name, chosen, words, seeded=result is not None))
+                if site is not None:
+                    site.add(results[-1], began)
+        except KeyboardInterrupt:
+            answer()
+            line.say(f"interrupted in {chosen}")
     if words.markdown is not None:
         from ..studies.markdown import write_markdown
 
@@ -109,9 +117,25 @@ def study(
     if words.as_json:
         print_json(results if result is None else results[0] if results else None)
         return
-    _print_results(stdout(), results)
+    _print_results(stdout(), results, len(wanted))
     if site is not None:
         stdout().print(f"report: {site.index}", soft_wrap=True)
+
+
+class StudyLine(LiveLine):
+    """Follows results as they are repeated."""
+
+    def begin(self, chosen: str, results: "Sequence[StudyResult]", total: int) -> None:
+        """Show the one that is begun, and what became of those before."""
+        told = f"{len(results) + 1} of {total}: working on {chosen}"
+        before = f"; so far: {verdicts(results)}" if results else ""
+        self.show(told + before, len(results) / total, now=True)
+
+
+def verdicts(results: "Sequence[StudyResult]") -> str:
+    """How many results hold, and so on."""
+    counts = Counter(result.verdict for result in results)
+    return ", ".join(f"{counts[word]} {VERDICTS[word][counts[word] > 1]}" for word in VERDICTS if counts[word])
 
 
 def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "StudyResult":
@@ -120,13 +144,14 @@ def _repeat(paper: str, result: str, words: StudyOptions, *, seeded: bool) -> "S
 
     if not (seeded and result in SEEDED):
         return STUDIES[paper][result]()
-    return SEEDED[result](
-        **({} if words.seeds is None else {"seeds": words.seeds}),
-        executor=executor_of(None, words.workers),
-        store=words.store,
-        resume=words.resume and words.store is not None,
-        progress=EndsLine(stderr(), "trials", quiet=words.quiet).update,
-    )
+    with keeping(words.store, EndsLine(stderr(), "trials", quiet=words.quiet)) as batch:
+        return SEEDED[result](
+            **({} if words.seeds is None else {"seeds": words.seeds}),
+            executor=executor_of(None, words.workers),
+            store=batch.store,
+            resume=words.resume and words.store is not None,
+            progress=batch.line.update,
+        )
 
 
 def _open_site(report: Path | None) -> "StudySite | None":
@@ -138,12 +163,27 @@ def _open_site(report: Path | None) -> "StudySite | None":
     return StudySite(report)
 
 
+VERDICTS: "Final[dict[Verdict, tuple[str, str]]]" = {
+    "holds": ("holds", "hold"),
+    "consistent": ("is consistent", "are consistent"),
+    "differs": ("differs", "differ"),
+    "open": ("is open", "are open"),
+}
+"""Verdict -> what is said of one result and of several."""
 STYLES = {"holds": "bold green", "consistent": "bold cyan", "differs": "bold red", "open": "bold yellow"}
 """Verdict -> colour."""
 
 
-def _print_results(console: Console, results: "Iterable[StudyResult]") -> None:
-    """Print each result: verdict, claim, numbers, deviations."""
+def _print_results(console: Console, results: "Sequence[StudyResult]", asked: int) -> None:
+    """Print how many results hold and which do not, then each one: verdict, claim, numbers, deviations."""
+    if asked > 1:
+        of = "" if len(results) == asked else f" of {asked}"
+        console.print(f"{len(results)}{of} results: {verdicts(results) or 'none yet'}", style="bold")
+        for word in ("differs", "open"):
+            names = ", ".join(each.result for each in results if each.verdict == word)
+            if names:
+                print_indented(console, f"{word}: {names}")
+        console.print()
     for result in results:
         console.print(f"{result.result}: {result.verdict}", style=STYLES[result.verdict])
         print_indented(console, f"claim: {result.claim}")

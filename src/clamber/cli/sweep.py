@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from rich.console import Console
 
-from ..terminal.crew import CrewWords
 from ..terminal.options import Overrides, PlannerName, TaskName, takes_options
 from ..terminal.output import announce_compilation, print_json, stdout
+from ..terminal.worker_options import WorkerOptions
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def sweep(
     evaluations: Annotated[int, typer.Option(min=1, help="Most plans that the genetic planner tries.")] = 50_000,
     stances: Annotated[int, typer.Option(min=1, help="Most stances that the exact planner keeps.")] = 2_000_000,
     *,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Plan at every point of a range: where a plan exists, how long the shortest is, how hard it loads the joints."""
     words.check()
@@ -66,18 +66,19 @@ def sweep(
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}
     limits = {"seed": seed} | {option: most for option, most in stated.items() if accepts(planner, option)}
-    result = run_sweep(
-        task,
-        axes,
-        overrides=overrides or (),
-        planner=planner,
-        options=limits,
-        executor=words.executor,
-        marks=marks,
-        store=words.store,
-        resume=words.resume,
-        progress=words.line("points").update,
-    )
+    with words.keeping("points") as batch:
+        result = run_sweep(
+            task,
+            axes,
+            overrides=overrides or (),
+            planner=planner,
+            options=limits,
+            executor=words.executor,
+            marks=marks,
+            store=batch.store,
+            resume=words.resume,
+            progress=batch.line.update,
+        )
     if pictured and words.output is not None:
         from ..viewing.sweep_plot import draw_sweep
 

@@ -1,12 +1,12 @@
 """`clamber view`: robots, plans and runs in the browser, in three dimensions."""
 
-import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..interrupts import answer
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides, takes_options
@@ -14,7 +14,7 @@ from ..terminal.output import announce_compilation, check_writable, print_json, 
 
 if TYPE_CHECKING:
     from ..viewing.browser.app import App
-    from ..viewing.browser.exhibit import Exhibit
+    from ..viewing.browser.viewer_content import ViewerContent
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +84,7 @@ def view(
 
     check_viser()
     announce_compilation()
-    from ..viewing.browser.exhibit import open_exhibit
+    from ..viewing.browser.viewer_content import open_exhibit
 
     exhibit = open_exhibit(things, words.task, words.overrides or ())
     if words.save is not None:
@@ -101,12 +101,12 @@ def view(
     try:
         _serve(app, words)
     except KeyboardInterrupt:
-        pass  # the usual end
+        answer()  # the usual end
     finally:
         app.close()
 
 
-def _save(exhibit: "Exhibit", path: Path, *, as_json: bool) -> None:
+def _save(exhibit: "ViewerContent", path: Path, *, as_json: bool) -> None:
     from ..viewing.browser.page import write_page
 
     size = write_page(exhibit, path)
@@ -127,7 +127,4 @@ def _serve(app: "App", words: ViewOptions) -> None:
         import webbrowser
 
         webbrowser.open(app.url)
-    began = time.monotonic()
-    while words.seconds is None or time.monotonic() - began < words.seconds:
-        left = 0.2 if words.seconds is None else words.seconds - (time.monotonic() - began)
-        time.sleep(min(0.2, max(left, 0.001)))
+    app.wait(words.seconds)

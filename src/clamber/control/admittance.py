@@ -10,7 +10,7 @@ and the servo is that of resolved rate control, so friction in the joints stays 
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import ERROR, FELT, GRAM, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE
+from .law_state import ERROR, FELT, GRAM, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE
 
 
 @kernel

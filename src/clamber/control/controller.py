@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from ..errors import ClamberError
 from ..types import Floats, Records
 from .chain import Chain
-from .drive import ARRAYS, DESK, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_at
+from .drive import ARRAYS, CONTROLLER_BUFFERS, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_packed
 from .kinematics import FRAME
 from .law_settings import LawError, LawSettings
-from .moment import LINES, SQUARES, line_length
+from .law_state import LINES, SQUARES, line_length
 from .records import AIM, AXES, JOINT, REPORT, ROOT, SETTINGS
 
 
@@ -105,9 +105,9 @@ class Controller:
             self.torques,
             self.reports,
         )
-        self._desk = np.zeros(DESK, np.int64)
-        self._desk[:ARRAYS] = [array.ctypes.data for array in self._arrays]
-        self._desk[[JOINTS, LAWS, MEMORY, LENGTH, SIDE]] = n, len(laws), self._memory.shape[1], length, size
+        self._buffers = np.zeros(CONTROLLER_BUFFERS, np.int64)
+        self._buffers[:ARRAYS] = [array.ctypes.data for array in self._arrays]
+        self._buffers[[JOINTS, LAWS, MEMORY, LENGTH, SIDE]] = n, len(laws), self._memory.shape[1], length, size
         self._nothing_felt = np.zeros((batch, AXES))
         self._state_shape, self._felt_shape = (batch, 2, n), (batch, AXES)
         self._aim_shapes = ((1,), (batch,))
@@ -125,9 +125,9 @@ class Controller:
         return self._memory
 
     @property
-    def desk(self) -> NDArray[np.int64]:
-        """Addresses for `drive_at`, so that a kernel can call this controller: its own array, shape (DESK,), valid while it lives."""
-        return self._desk
+    def buffers(self) -> NDArray[np.int64]:
+        """Addresses for `drive_packed`, so that a kernel can call this controller: its own array, shape (DESK,), valid while it lives."""
+        return self._buffers
 
     def command(
         self, aims: Records, states: Floats, wrenches: Floats | None = None, mounts: Floats | None = None
@@ -173,7 +173,7 @@ class Controller:
             felt = self._as_floats("wrenches", felt, self._felt_shape)
             carried = self._as_floats("mounts", carried, self._felt_shape)
             aims = self._as_aims(aims)
-        bad = drive_at(self._desk, aims, states, felt, carried)
+        bad = drive_packed(self._buffers, aims, states, felt, carried)
         if bad >= 0:
             self._complain(bad, aims, states, felt, carried)
         return self.torques

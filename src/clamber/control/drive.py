@@ -14,7 +14,7 @@ from .inverse_motion import invert_motion
 from .jacobian_transpose import jacobian_transpose
 from .joint_pd import joint_pd
 from .kinematics import FRAME, accelerate
-from .moment import (
+from .law_state import (
     BIAS,
     DRIFT,
     ERROR,
@@ -32,7 +32,7 @@ from .moment import (
     WANTED_ACCELERATION,
     WANTED_FORCE,
     Room,
-    fill_moment,
+    fill_law_state,
     into_task,
     lean,
     pull_back,
@@ -123,7 +123,7 @@ def drive(joints, root, settings, aims, sensed, memory, room, told):
             if bad < 0:
                 bad = b
             continue
-        fill_moment(joints, root, chosen, aim, states[b], wrenches[b], room)
+        fill_law_state(joints, root, chosen, aim, states[b], wrenches[b], room)
         for k in range(3):
             report.place[k] = lines[TIP, k]
         for i in range(chosen.n_rows):
@@ -261,7 +261,7 @@ def _limit(joints, settings, qd, wanted, out):
 
 ARRAYS = 9
 """Addresses in a desk: joints, root, settings, memory, frames, lines, squares, torques, reports; sizes follow."""
-DESK_TORQUES = 7
+BUFFERS_TORQUES = 7
 """The torques among them."""
 JOINTS = 9
 """Number of joints."""
@@ -273,26 +273,26 @@ LENGTH = 12
 """Of a line of scratch."""
 SIDE = 13
 """Of a square of scratch."""
-DESK = 14
+CONTROLLER_BUFFERS = 14
 
 
 @kernel
-def drive_at(desk, aims, states, wrenches, mounts):
-    """`drive` with the arrays whose addresses are in `desk`; their owner keeps them alive."""
-    n = desk[JOINTS]
+def drive_packed(buffers, aims, states, wrenches, mounts):
+    """`drive` with the arrays whose addresses are in `buffers`; their owner keeps them alive."""
+    n = buffers[JOINTS]
     batch = states.shape[0]
-    side = desk[SIDE]
+    side = buffers[SIDE]
     return drive(
-        carray(pointer(desk[0]), n, JOINT),
-        carray(pointer(desk[1]), 1, ROOT),
-        carray(pointer(desk[2]), desk[LAWS], SETTINGS),
+        carray(pointer(buffers[0]), n, JOINT),
+        carray(pointer(buffers[1]), 1, ROOT),
+        carray(pointer(buffers[2]), buffers[LAWS], SETTINGS),
         aims,
         (states, wrenches, mounts),
-        carray(pointer(desk[3]), (batch, desk[MEMORY]), np.float64),
+        carray(pointer(buffers[3]), (batch, buffers[MEMORY]), np.float64),
         Room(
-            carray(pointer(desk[4]), (2 * n, FRAME), np.float64),
-            carray(pointer(desk[5]), (LINES, desk[LENGTH]), np.float64),
-            carray(pointer(desk[6]), (SQUARES, side, side), np.float64),
+            carray(pointer(buffers[4]), (2 * n, FRAME), np.float64),
+            carray(pointer(buffers[5]), (LINES, buffers[LENGTH]), np.float64),
+            carray(pointer(buffers[6]), (SQUARES, side, side), np.float64),
         ),
-        (carray(pointer(desk[7]), (batch, n), np.float64), carray(pointer(desk[8]), batch, REPORT)),
+        (carray(pointer(buffers[7]), (batch, n), np.float64), carray(pointer(buffers[8]), batch, REPORT)),
     )

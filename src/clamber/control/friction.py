@@ -11,7 +11,7 @@ import math
 
 from ..compiled import inlined
 from .inverse_motion import invert_motion
-from .moment import FRICTION, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .law_state import FRICTION, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
 
 FROM_AIM = 0
 """Friction is fed forward by the speed that the aim asks for."""

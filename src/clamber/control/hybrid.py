@@ -10,7 +10,7 @@ move: the damping d bounds how fast the limb approaches a surface that is not th
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import (
+from .law_state import (
     ERROR,
     FELT,
     GRAM,

@@ -8,7 +8,7 @@ sensed: an error in k_e, in the surface's place or in the joints' friction is an
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE, pull_back
+from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE, pull_back
 
 
 @kernel

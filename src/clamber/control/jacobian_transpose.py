@@ -8,7 +8,7 @@ the unit matrix), so it leaves the line on every motion.
 
 from ..compiled import kernel
 from .inverse_motion import damping_of
-from .moment import ERROR, GRAM, RATE, SPARE, TASK, TORQUE, WANTED_RATE, pull_back
+from .law_state import ERROR, GRAM, RATE, SPARE, TASK, TORQUE, WANTED_RATE, pull_back
 
 
 @kernel

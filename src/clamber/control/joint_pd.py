@@ -12,7 +12,7 @@ import math
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
 from .kinematics import fill_jacobian, place_chain
-from .moment import GRAM, JACOBIAN, OTHER, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE, fill_error, fill_task
+from .law_state import GRAM, JACOBIAN, OTHER, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE, fill_error, fill_task
 
 LOOKS = 7
 """At where the angles lead, a tick, at most; between two of them lies a step."""

@@ -12,8 +12,7 @@ space that belongs to it, E - T^T (T H^-1 T^T)^-1 T H^-1, so that it does not ac
 from ..compiled import kernel
 from .inverse_motion import damping_of
 from .kinematics import fill_inertia
-from .matrices import back_substitute, factor, solve_square
-from .moment import (
+from .law_state import (
     DRIFT,
     ERROR,
     GRAM,
@@ -29,6 +28,7 @@ from .moment import (
     into_task,
     lean,
 )
+from .matrices import back_substitute, factor, solve_square
 
 
 @kernel

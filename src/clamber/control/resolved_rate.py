@@ -17,7 +17,7 @@ fed back: the tip drifts off by what the Jacobian changes on the way, and after 
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
+from .law_state import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
 
 
 @kernel

@@ -8,7 +8,7 @@ inertia is not small beside that of the geared motors.
 
 from ..compiled import kernel
 from .inverse_motion import damping_of, invert_motion
-from .moment import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
 
 
 @kernel

@@ -19,7 +19,7 @@ meaning, and the estimate settles as 1/k whatever the limb touches.
 
 from ..compiled import inlined
 from .kinematics import AXIS, CENTRE, PLACE
-from .moment import BIAS, FRICTION, JACOBIAN, LINK, TORQUE
+from .law_state import BIAS, FRICTION, JACOBIAN, LINK, TORQUE
 
 NOWHERE = 0
 AT_BASE = 1

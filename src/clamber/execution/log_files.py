@@ -14,6 +14,7 @@ from ..files import read_text, write_atomically
 from ..regular_files import read_bytes
 from .log import Log, LogError, build_log
 from .log_mcap import TOPIC, mcap_bytes, mcap_of, parse_mcap
+from .log_scene import LoggedScene
 
 _NOTE: Final = re.compile(r"[A-Za-z][\w -]*+")
 """Name of a note."""
@@ -119,14 +120,14 @@ def read_log(path: Path, topic: str | None = None) -> Log:
     return parse_csv(read_text(path, MOST_BYTES), name)
 
 
-def write_log(log: Log, path: Path, topic: str = TOPIC) -> None:
-    """Write a log as its file's suffix says, whole or not at all.
+def write_log(log: Log, path: Path, topic: str = TOPIC, scene: LoggedScene | None = None) -> None:
+    """Write a log as its file's suffix says, whole or not at all; an .mcap file has a scene in three dimensions, too, if there is one.
 
     Raises:
         FileError: If the suffix is none of `SUFFIXES`, or the file cannot be written.
     """
     suffix = check_log_suffix(path)
-    write_atomically(path, mcap_bytes(log, topic) if suffix == ".mcap" else csv_text(log))
+    write_atomically(path, mcap_bytes(log, topic, scene) if suffix == ".mcap" else csv_text(log))
 
 
 def write_logs(logs: Mapping[str, Log], path: Path) -> tuple[Path, ...]:

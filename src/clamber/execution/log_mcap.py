@@ -11,6 +11,7 @@ import numpy as np
 
 from ..types import Floats
 from .log import Log, LogError, build_log
+from .log_scene import FOXGLOVE, LoggedScene, SceneWriter
 
 TOPIC: Final = "limb"
 """Channel of a log that Clamber writes."""
@@ -30,26 +31,35 @@ MAGIC: Final = bytes((137, 77, 67, 65, 80, 48, 13, 10))
 _HEAD: Final = struct.Struct("<BQ")
 
 
-def mcap_bytes(log: Log, topic: str = TOPIC) -> bytes:
-    """The bytes of an MCAP file of a log: one channel, whose messages hold one number a column under its title."""
-    return mcap_of({topic: log})
+def mcap_bytes(log: Log, topic: str = TOPIC, scene: LoggedScene | None = None) -> bytes:
+    """The bytes of an MCAP file of a log: one channel, whose messages hold one number a column under its title.
+
+    Args:
+        log: The samples.
+        topic: Name of the channel.
+        scene: The same in three dimensions, on channels of its own; None: there is none.
+    """
+    return mcap_of({topic: log}, scene)
 
 
-def mcap_of(logs: Mapping[str, Log]) -> bytes:
+def mcap_of(logs: Mapping[str, Log], scene: LoggedScene | None = None) -> bytes:
     """The bytes of an MCAP file of several logs, each on the channel that it is named by; notes are the channel's metadata."""
     from mcap.writer import Writer
 
     out = io.BytesIO()
     writer = Writer(out)
     writer.start(profile="", library="clamber")
+    told = None if scene is None else SceneWriter(writer, scene)
     for topic, log in logs.items():
         titles = log.titles()
         channel = open_channel(writer, topic, titles, log.notes)
         times = log.columns[TIME] if TIME in log.columns else np.arange(log.rows, dtype=np.float64)
-        for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()]).tolist()):
+        for k, row in enumerate(np.column_stack([np.asarray(v) for v in log.columns.values()])):
             stamp = stamp_of(float(times[k]))
-            data = json.dumps(dict(zip(titles, row, strict=True))).encode()
+            data = json.dumps(dict(zip(titles, row.tolist(), strict=True))).encode()
             writer.add_message(channel, stamp, data, stamp, k)
+            if told is not None:
+                told.add(row, stamp)
     writer.finish()  # type: ignore[no-untyped-call]
     return out.getvalue()
 
@@ -203,6 +213,8 @@ def _whole_records(content: bytes) -> int:
 
 
 def _keep(channels: dict[str, _Channel], schema: Any, channel: Any, message: Any) -> None:
+    if schema is not None and schema.name.startswith(FOXGLOVE):  # frames and shapes, no table of numbers
+        return
     ours = schema is not None and schema.name == SCHEMA  # the metadata of others are no notes of a limb
     found = channels.setdefault(
         channel.topic, _Channel(channel.message_encoding, dict(channel.metadata) if ours else {})

@@ -20,6 +20,7 @@ from ..json_form import Jsonable
 from ..regular_files import check_target, open_growing
 from ..types import Floats, Json
 from .log_mcap import NOTES, TOPIC, open_channel, stamp_of
+from .log_scene import LoggedScene, SceneWriter
 from .sample_log import report_notes
 from .samples import Samples
 
@@ -74,12 +75,20 @@ class LogStream:
         titles: Of the columns, such as "time [s]"; the first is the time.
         notes: What is known beforehand.
         topic: Name of the channel.
+        scene: The samples in three dimensions, on channels of their own; None: there is none.
     """
 
-    def __init__(self, path: Path, titles: tuple[str, ...], notes: Mapping[str, str], topic: str = TOPIC) -> None:
+    def __init__(
+        self,
+        path: Path,
+        titles: tuple[str, ...],
+        notes: Mapping[str, str],
+        topic: str = TOPIC,
+        scene: LoggedScene | None = None,
+    ) -> None:
         self.path = check_target(path)
         self.part = part_of(self.path)
-        self._titles, self._notes, self._topic = titles, dict(notes), topic
+        self._titles, self._notes, self._topic, self._scene = titles, dict(notes), topic, scene
         self._queue: SimpleQueue[Floats | Mapping[str, str] | None] = SimpleQueue()
         self._thread = Thread(target=self._work, name=f"log {path.name}", daemon=True)
         self._unsure: float | None = None
@@ -136,6 +145,7 @@ class LogStream:
 
         writer: Any = Writer(file)
         writer.start(profile="", library="clamber")
+        scene = None if self._scene is None else SceneWriter(writer, self._scene)
         channel = open_channel(writer, self._topic, self._titles, self._notes)
         rows, before, flushed = 0, -1, 0.0
         while True:
@@ -156,6 +166,8 @@ class LogStream:
                 data = json.dumps(dict(zip(self._titles, row.tolist(), strict=True))).encode()
                 writer.add_message(channel, stamp, data, stamp, rows)
                 rows, before = rows + 1, stamp
+                if scene is not None:
+                    scene.add(row, stamp)
         writer.flush()
         if row is not None:
             writer.add_metadata(NOTES, dict(row))
@@ -166,7 +178,12 @@ class LogStream:
 
 @contextmanager
 def growing_log(
-    wanted: Path | WantedLog | None, samples: Samples, titles: tuple[str, ...], notes: Mapping[str, str], topic: str
+    wanted: Path | WantedLog | None,
+    samples: Samples,
+    titles: tuple[str, ...],
+    notes: Mapping[str, str],
+    topic: str,
+    scene: LoggedScene | None = None,
 ) -> Iterator[Callable[[Json], LogGap | None]]:
     """A run's log that grows with its samples; what is yielded takes the report, ends the file, and returns what that lacks.
 
@@ -176,6 +193,7 @@ def growing_log(
         titles: Of their numbers.
         notes: What is known beforehand.
         topic: Name of the channel.
+        scene: The samples in three dimensions.
 
     Raises:
         FileError: If the file cannot be made.
@@ -184,7 +202,7 @@ def growing_log(
         yield lambda _: None
         return
     path, tell = (wanted.path, wanted.tell) if isinstance(wanted, WantedLog) else (wanted, warn)
-    with LogStream(path, titles, notes, topic) as stream:
+    with LogStream(path, titles, notes, topic, scene) as stream:
         told = False
 
         def add(row: Floats) -> None:

@@ -107,6 +107,12 @@ def table_of(log: Log, titles: Titles) -> Floats:
     return table
 
 
+def columns_of(titles: Titles) -> dict[str, slice]:
+    """Field -> which of a sample's numbers are its."""
+    ends = np.cumsum([0, *map(len, titles.values())]).tolist()
+    return {field: slice(start, end) for field, start, end in zip(titles, ends, ends[1:], strict=False)}
+
+
 def width(titles: Titles) -> int:
     """How many numbers a sample has."""
     return sum(map(len, titles.values()))

@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar, Final, Generic, TypeVar, TypeVarTuple
 
+from ..interrupts import answer
 from .run_report import Ending, FallenError, FaultError, Outcome, RefusedError, RunEndedError, RunReport
 
 MOST_RECOVERIES: Final = 3
@@ -137,6 +138,7 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
             report.reason = self._carry_all_out()
             report.done = not report.reason
         except KeyboardInterrupt:
+            answer()
             report.reason = "interrupted"
         except FaultError as fault:
             report.reason = f"{fault.word}: {fault}"
@@ -155,6 +157,7 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
             if report.ending == "fell":  # what falls moves faster than its motors, which looks like a sensor that jumps
                 report.reason = f"{FallenError.word}: noticed by {report.reason}"
         except KeyboardInterrupt:
+            answer()
             report.reason = "interrupted"
         except RunEndedError as end:
             report.ending = "fell" if isinstance(end, FallenError) else ""

@@ -129,11 +129,12 @@ class Trajectories:
 
 
 def _body_over_plan(task: Any, replay: Replay) -> JointTrajectory:
-    """The body's place and angle after each action; an action takes a second where the model has no time."""
+    """The body's pose after each action; an action takes a second where the model has no time."""
     plans = family_of(task).plans
-    poses = np.array([plans.pose(stance) for stance in replay.stances])
+    poses = np.array([plans.pose(task, stance) for stance in replay.stances])
     time = np.arange(len(poses), dtype=np.float64) * (plans.duration(task) or 1.0)
-    return resting(("body_x", "body_y", "body_angle"), (True, True, False), time, poses, None)
+    names = tuple(f"body_{'angle' if axis.name == 'theta' else axis.name}" for axis in plans.pose_axes)
+    return resting(names, tuple(axis.unit == "m" for axis in plans.pose_axes), time, poses, None)
 
 
 def _no_runs(log: Log) -> JointTrajectory:

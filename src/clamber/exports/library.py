@@ -15,7 +15,7 @@ from ..files import is_path, unknown_name, write_atomically
 from ..json_form import Count, Key, in_json
 from ..planning.problem.plan_source import OpenedPlan, is_plan, open_plan, plan_names
 from ..planning.problem.problem import Replay
-from ..planning.problem.problems import plan_family, yardsticks_of
+from ..planning.problem.problems import normalisation_of, plan_family
 from ..planning.problem.verdict import StepVerdict, Verdict
 from ..tasks.robots import Robot, load_robot, robot_names
 from ..units import DEGREE
@@ -31,16 +31,18 @@ def plan_table(opened: OpenedPlan) -> str:
         StartError: If the task's start violates a hard check.
     """
     verdict, plan = opened.check(go_on=True), opened.plan
-    sticks = yardsticks_of(opened.task)
+    sticks = normalisation_of(opened.task)
     loaded = any(row.max_torque is not None for row in verdict.per_step)
     held = any(row.holds for row in verdict.per_step)
-    heads = ["step", "action", "x [m]", "y [m]", "angle [deg]"]
+    axes = verdict.pose_axes
+    heads = ["step", "action", *(f"{axis.name} [{'m' if axis.unit == 'm' else 'deg'}]" for axis in axes)]
     heads += (["holds"] if held else []) + (["largest torque [N m]"] if loaded else []) + ["nearest limit", "verdict"]
     lines = [f"# {_cell(opened.task.title or opened.task.name)}", "", *_facts(verdict, plan.planner, plan.seed), ""]
     lines += ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
     for row in verdict.per_step:
-        x, y, angle = row.pose
-        cells = [str(row.step), row.action.title, f"{x:.4f}", f"{y:.4f}", f"{angle / DEGREE:.1f}"]
+        at = zip(axes, row.pose, strict=True)
+        cells = [str(row.step), row.action.title]
+        cells += [f"{value:.4f}" if axis.unit == "m" else f"{value / DEGREE:.1f}" for axis, value in at]
         if held:
             cells.append(", ".join(f"{limb} {hold or 'free'}" for limb, hold in row.holds.items()))
         if loaded:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeAlias
 
 from ..json_form import HIDDEN, Jsonable, in_json
+from ..notebook import OneLine
 from ..shown_units import SI, ShownUnits
 
 Kind: TypeAlias = str
@@ -30,8 +31,8 @@ class Margin(Jsonable):
         return self.margin is None or self.margin >= 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Finding(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Finding(Jsonable, OneLine):
     """What a file is and what is to be said of it; a file that breaks a rule of its format is an error, exit code 2."""
 
     kind: Kind
@@ -45,6 +46,10 @@ class Finding(Jsonable):
     """Of a task's start stance, in the order of its checks."""
     units: Annotated[ShownUnits, HIDDEN] = SI
     """In which margins are printed."""
+
+    def told(self) -> str:
+        """What it is, and whether it holds."""
+        return f"{self.kind} {self.name!r}: {'ok' if self.ok else 'VIOLATED'}, {len(self.odd)} things odd"
 
     @property
     @in_json(after="kind")

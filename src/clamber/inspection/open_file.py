@@ -2,19 +2,21 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
 from ..errors import SpecError, describe_choices
-from ..family import NotOfFamilyError, families, family_of
+from ..family import Family, NotOfFamilyError, families, family_of, named_family
 from ..files import Document, is_path, read_toml, unknown_name
+from ..planning.problem.body_pose import describe_body_pose
 from ..planning.problem.check import UNLIMITED
 from ..planning.problem.codes import pack
 from ..planning.problem.plan_source import is_plan, plan_names
+from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import plan_family
 from ..regular_files import user_path
-from ..shown_units import units_of
+from ..shown_units import SI, units_of
 from ..tasks import Task, load_task, task_names
 from ..tasks.library import change_task
 from ..tasks.robots import family_in, read_robot, robot_names
@@ -43,34 +45,31 @@ def start_margins(task: Task) -> tuple[Margin, ...]:
 def inspect_task(task: Task) -> Finding:
     """Facts of a task, whether its start holds and by how much, and what is odd about it."""
     margins = start_margins(task)
-    x, y, theta, units = task.start.x, task.start.y, task.start.theta, units_of(task.document)
+    family, units = plan_family(task), units_of(task.document)
+    problem = family.problem(task)
+    start = describe_body_pose(family.pose_axes, family.pose(task, problem.start[0]), units)
     facts = {
         "robot": task.robot.name,
         "world": task.world.name,
-        "start": f"x {units.length(x)}, y {units.length(y)}, theta {math.degrees(theta):.4g} deg",
+        "start": start,
         "goals": ", ".join(goal.name or "unnamed" for goal in task.goals),
         "hard checks": ", ".join(margin.check for margin in margins if margin.hard) or "none",
     }
     return Finding(
-        kind="task", name=task.name, title=task.title, facts=facts, odd=tuple(_odd(task, margins)), margins=margins, units=units
+        kind="task", name=task.name, title=task.title, facts=facts, odd=tuple(_odd(task, problem, margins)), margins=margins, units=units
     )  # fmt: skip
 
 
-def _odd(task: Task, margins: tuple[Margin, ...]) -> Iterator[str]:
+def _odd(task: Task, problem: CompiledProblem, margins: tuple[Margin, ...]) -> Iterator[str]:
     hard = {margin.check for margin in margins if margin.hard}
     if not hard:
         yield "no check is hard: any action is allowed"
-    starts_done = all(margin.holds for margin in margins if margin.hard) and _is_done(task)
+    starts_done = all(margin.holds for margin in margins if margin.hard) and problem.is_done(problem.start)
     if starts_done:
         yield "the start meets the goal: the shortest plan has no actions"
     inspection = family_of(task).inspection
     if inspection is not None:
         yield from inspection.odd_task(task, hard)
-
-
-def _is_done(task: Task) -> bool:
-    problem = plan_family(task).problem(task)
-    return bool(problem.is_done(problem.start))
 
 
 SCHEMAS: Final[dict[str, Kind]] = {"clamber-robot-1": "robot", "clamber-task-1": "task", "clamber-plan-1": "plan"}
@@ -130,6 +129,30 @@ def _document(name_or_path: str, kind: Kind) -> Json:
     """What the file of a family's world says; empty for other kinds, whose quantities are shown in SI."""
     reads = (family.files.read_world for family in families() if family.files.world_key == kind)
     return next((read(name_or_path, None).data for read in reads), {})
+
+
+def family_of_thing(thing: Any) -> Family | None:
+    """The family of a robot, or of what only one family has, such as a board; None: it is neither."""
+    return named_family(getattr(thing, "family", None)) or next(
+        (
+            one
+            for one in families()
+            if one.inspection is not None and getattr(thing, "kind", None) in one.inspection.kinds
+        ),
+        None,
+    )
+
+
+def inspect_thing(thing: Any) -> Finding | None:
+    """What is to be said of a task, a robot, a world or a walk as Python has it, in SI units; None: it is none of them."""
+    if isinstance(thing, Task):
+        return inspect_task(thing)
+    family = family_of_thing(thing)
+    if family is None or family.inspection is None:
+        return None
+    if hasattr(thing, "family"):
+        return family.inspection.robot(thing, SI)
+    return family.inspection.kinds[thing.kind].inspect(thing, SI)
 
 
 def inspect_file(name_or_path: str, kind: Kind | None = None, overrides: Sequence[str] = ()) -> Finding:

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final
 
-from ..errors import ClamberError
+from ..errors import ClamberError, how_to_install
 from ..types import Json
 from .executor import MOST_TRIES, End
 from .release import difference, release
@@ -67,7 +67,7 @@ class RayCluster:
         """
         host, port = self._place()
         if importlib.util.find_spec("ray") is None:
-            raise ClusterError(self.address, "Ray is not installed here", "install it with: pip install 'clamber[ray]'")
+            raise ClusterError(self.address, "Ray is not installed here", f"install it with: {how_to_install('ray')}")
         try:
             socket.create_connection((host, port), timeout=CONNECT).close()
         except OSError as error:

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import sys
 from collections import Counter, deque
 from collections.abc import Generator, Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -10,6 +11,7 @@ from dataclasses import dataclass, field
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
+from multiprocessing.resource_tracker import ensure_running
 from typing import Any, Final
 
 from .executor import MOST_TRIES, End
@@ -112,14 +114,25 @@ def _start(name: str) -> tuple["Connection[Any, Any]", SpawnProcess]:
 
 @contextmanager
 def _quiet_start() -> Iterator[None]:
-    """A worker inherits one BLAS thread, for many small matrices, and no Ctrl-C, which its parent sees to."""
+    """A worker inherits one BLAS thread, for many small matrices, and no Ctrl-C, which its parent sees to.
+
+    It does not inherit the script that Python runs, either: it has no use for it, and one that starts work at its top level would
+    start it in every worker again.
+    """
+    main = sys.modules["__main__"]
+    ran: dict[str, Any] = {name: main.__dict__[name] for name in ("__spec__", "__file__") if name in main.__dict__}
+    main.__dict__.pop("__file__", None)
+    main.__dict__["__spec__"] = None
     before = os.environ.get("OPENBLAS_NUM_THREADS")
     os.environ["OPENBLAS_NUM_THREADS"] = "1"
+    if os.name == "posix":
+        ensure_running()  # which would let Ctrl-C in again if it were begun below
     masks = hasattr(signal, "pthread_sigmask")
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT}) if masks else set()
     try:
         yield
     finally:
+        main.__dict__.update(ran)
         if masks:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         if before is None:

@@ -17,6 +17,7 @@ from ..execution.log import Log
 from ..execution.trace import LimbTrace, trace_log
 from ..files import write_atomically
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ..notebook import Pictured
 from ..sim.bench_limb import BenchLimb
 from ..sim.flaw_texts import plant_words
 from ..sim.limb_flaws import LimbFlaws
@@ -178,14 +179,18 @@ class Row(Jsonable, Measured[tuple[Measures, ...]]):
         return Figures(true=true, encoder=encoder, **costs)
 
 
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class LimbResult(Comparison):
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True, repr=False)
+class LimbResult(Comparison, Pictured):
     """What came out of one scenario with several laws on one plant."""
 
     schema: str = SCHEMA
     scenario: Annotated[Scenario, Key(after="schema")]
     matching: Annotated[Matching, Key("match", after="plant")]
     rows: Annotated[tuple[Row, ...], Key("laws", after="trials")]
+
+    def told(self) -> str:
+        """What was compared, on what."""
+        return f"{self.title()}: {', '.join(row.entry.label for row in self.rows)} on {self.plant_words()}"
 
     @property
     @in_json(after="seed")

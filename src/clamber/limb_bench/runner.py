@@ -165,13 +165,19 @@ class Crew:
     """Whether to go on with that file."""
     progress: Progress | None = None
     """Told of each end."""
+    then: Progress | None = None
+    """Told instead of each end in a batch that follows from another, and is not kept."""
 
     def map(
         self, function: Callable[[Json], Json], items: Sequence[Json], *, title: str = "", about: Json | None = None
     ) -> list[Outcome]:
         """How each item ends; only a titled batch is kept."""
         kept: dict[str, Any] = {"store": self.store, "resume": self.resume, "title": title} if title else {}
-        who: dict[str, Any] = {"workers": self.workers, "executor": self.executor, "progress": self.progress}
+        who: dict[str, Any] = {
+            "workers": self.workers,
+            "executor": self.executor,
+            "progress": self.progress if title else self.then,
+        }
         return map_items(function, items, about=about, **kept, **who)
 
 

@@ -67,7 +67,7 @@ def plan_auto(
     Args:
         task: What to plan.
         seed: Handed to every planner.
-        seconds: Most wall-clock time [s], all planners together.
+        seconds: Most time [s], all planners together.
         threads: Threads; None for one a core.
         progress: Called now and then.
 

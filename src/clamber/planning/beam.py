@@ -4,7 +4,7 @@ from dataclasses import replace
 from typing import Final
 
 from ..tasks import Task
-from .beam_layers import LONGEST, WIDTH, Beam, Reached, search_layers
+from .beam_layers import Reached, search_layers
 from .problem.plan import Plan
 from .problem.problems import listed_problem, plan_family
 from .progress import Clock, Layers, Listener
@@ -21,9 +21,9 @@ def plan_beam(
     task: Task,
     *,
     seed: int = 0,
-    width: int = WIDTH,
-    longest: int = LONGEST,
-    polish: int = 60_000,
+    width: int | None = None,
+    longest: int | None = None,
+    polish: int | None = None,
     seconds: float | None = None,
     threads: int | None = None,
     progress: Listener | None = None,
@@ -36,9 +36,9 @@ def plan_beam(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        width: Stances kept of each layer at first.
-        longest: Most actions of a plan.
-        polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none.
+        width: Stances kept of each layer at first; None: as many as the family of the robot says.
+        longest: Most actions of a plan; None: as for `width`.
+        polish: Most stances that windows about the plan may see afterwards (`planning.shorten`); 0 for none, None: as for `width`.
         seconds: Most wall-clock time [s].
         threads: Threads; None for one a core. The plan does not depend on them.
         progress: Called after every layer.
@@ -56,7 +56,8 @@ def plan_beam(
         if progress is not None:
             progress(Layers(layer, stances, score))
 
-    beam = Beam(width=width, longest=longest)
+    asked = {"width": width, "longest": longest, "polish": polish}
+    beam = replace(problem.beam, **{name: value for name, value in asked.items() if value is not None})
     checks = 0
     for _ in range(1 + WIDENINGS):
         reached = search_layers(problem, beam, seconds=clock.left, tell=tell)
@@ -65,8 +66,8 @@ def plan_beam(
             break
         beam = replace(beam, width=WIDER * beam.width)
     shortened = Shortened(reached.codes, 0, 0, complete=False)
-    if reached.found and polish:
-        shortened = shorten(problem, reached.codes, width=0, effort=polish, seconds=clock.left)
+    if reached.found and beam.polish:
+        shortened = shorten(problem, reached.codes, width=0, effort=beam.polish, seconds=clock.left)
     family = plan_family(task)
     stances = problem.replay(shortened.codes).stances
     return PlanResult(

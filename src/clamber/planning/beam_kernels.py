@@ -3,29 +3,36 @@
 import numpy as np
 
 from ..compiled import kernel
+from .problem.family_kernels import step
 from .problem.randoms import scramble
 from .stance_table import slot_of
 
 
 @kernel
-def choose(order, slots, cells, keys, width, niche, kept_keys, n_kept, table, niches, counts, chosen):
-    """Take children in order of their score: those with a key that no layer had yet, at most `niche` per niche, up to `width`.
+def choose(p, parents, order, scored_children, width, niche, kept, niches, margins, children, chosen):
+    """Take children that hold in order of their score: those with a key that no layer had, at most `niche` per niche, up to `width`.
 
     Args:
-        order: Children, best first: parent times `slots` plus slot.
-        slots: Slots per parent.
-        cells, keys: As `Problem.sprout` wrote them.
+        p: A family's parameters.
+        parents: Stances.
+        order: Children, best first: parent times the slots of each parent, plus slot.
+        sprouts: Codes, cells and keys as `Problem.expand_scored` wrote them; what it left to be judged is judged here.
         width: Most children to take.
         niche: Most of one niche.
-        kept_keys, n_kept: Keys of all layers so far, with room for `width` more, and their number; the new ones are added.
-        table: Hash table of `kept_keys`.
-        niches, counts: Scratch: an empty hash table of niches (their number plus one), at least twice `width` long, a power of two.
-        chosen: Output: the children taken.
+        kept: Keys of all layers so far, with room for `width` more, their number, and a hash table of them; the new ones are added.
+        niches: Scratch: a hash table of niches and how often each was taken, all 0; at least twice `width` long, a power of two.
+        margins: Scratch of the family's checks.
+        children: Output: the stances taken, with room for one more.
+        chosen: Output: which children they are.
 
     Returns:
-        How many were taken.
+        How many were taken, and how many were judged.
     """
-    n = 0
+    codes, cells, keys = scored_children
+    kept_keys, n_kept, table = kept
+    niches, counts = niches
+    slots = codes.shape[1]
+    n, judged = 0, 0
     mask = np.uint64(niches.shape[0] - 1)
     for at in range(order.shape[0]):
         if n == width:
@@ -41,6 +48,9 @@ def choose(order, slots, cells, keys, width, niche, kept_keys, n_kept, table, ni
             place = (place + 1) & np.int64(mask)
         if counts[place] >= niche:
             continue
+        judged += 1
+        if step(p, parents[i], codes[i, j], children[n], margins) >= 0:
+            continue
         niches[place] = cells[i, j]
         counts[place] += 1
         table[slot] = n_kept + n
@@ -48,4 +58,4 @@ def choose(order, slots, cells, keys, width, niche, kept_keys, n_kept, table, ni
             kept_keys[n_kept + n, w] = keys[i, j, w]
         chosen[n] = child
         n += 1
-    return n
+    return n, judged

@@ -2,35 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 import numpy.typing as npt
 
+from ..interrupts import answer
 from .beam_kernels import choose
-from .problem.problem import CompiledProblem, Records
+from .problem.problem import Beam, CompiledProblem, Records
 from .progress import Clock
 from .stance_table import rehash, table_size
-
-WIDTH: Final = 500
-NICHE: Final = 20
-LONGEST: Final = 400
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Beam:
-    """The settings of a beam search; lengths in actions."""
-
-    width: int = WIDTH
-    """Stances kept of each layer."""
-    niche: int = NICHE
-    """Most of one niche in a layer: same goals met, same contacts, nearby."""
-    longest: int = LONGEST
-    """Layers, so actions of a plan."""
-    toll: float = 0.0
-    """What a stance's score loses per action that the family's bound says is left."""
-    weights: tuple[tuple[str, float], ...] = (("body", 1.0), ("limbs", 0.1), ("stages", 0.5))
-    """Feature -> weight in the score."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +42,7 @@ class Reached:
     stances: int
     """Stances kept in all layers."""
     checks: int
-    """Valid children looked at."""
+    """Children looked at that hold, or, where they are judged as they are taken, all that were judged."""
 
 
 class _Kept:
@@ -110,8 +90,9 @@ def search_layers(
     """
     clock = Clock(seconds)
     weights = np.array([dict(beam.weights).get(name, 0.0) for name in problem.features])
-    out = problem.sprouts(beam.width)
-    slots = problem.branching
+    out = problem.scored_children(beam.width)
+    slots, drafts = problem.branching, problem.drafts(weights)
+    params, margins = problem.params.record, np.zeros(len(problem.checks))
     kept = _Kept(problem.key_words)
     kept.make_room(1 + beam.width)
     kept.parent[0] = -1
@@ -120,33 +101,37 @@ def search_layers(
     best, best_score, checks = 0, -np.inf, 0
     goal, interrupted = 0 if problem.is_done(problem.start) else -1, False
     niches = np.zeros(table_size(beam.width), np.int64)
-    chosen = np.zeros(beam.width, np.int64)
+    chosen, taken = np.zeros(beam.width, np.int64), np.zeros(beam.width + 1, problem.start.dtype)
     filled = np.arange(slots)
     try:
         while goal < 0 and len(layer) and depth < beam.longest:
             if clock.is_over:
                 break
-            problem.sprout(layer, weights, beam.toll, out)
+            problem.expand_scored(layer, weights, beam.toll, out)
             count = out.count[: len(layer)]
             children = np.flatnonzero((filled < count[:, None]).ravel())
             scores = out.score[: len(layer)].ravel()[children]
             ended = children[out.done[: len(layer)].ravel()[children] != 0]
-            order = ended[:1] if len(ended) else children[np.argsort(-scores, kind="stable")]
-            checks += len(children)
             kept.make_room(beam.width)
-            n = choose(
-                order, slots, out.cell, out.keys, beam.width, beam.niche, kept.keys, kept.n, kept.table, niches,
-                np.zeros(len(niches), np.int32), chosen,
-            )  # fmt: skip
+            n, last = 0, False
+            for order, most in ((ended, 1), (children[np.argsort(-scores, kind="stable")], beam.width)):
+                n, judged = choose(
+                    params, layer, order, (out.code, out.cell, out.keys), most, beam.niche, (kept.keys, kept.n, kept.table),
+                    (niches, np.zeros(len(niches), np.int32)), margins, taken, chosen,
+                )  # fmt: skip
+                checks += judged if drafts else 0
+                last = n > 0 and most == 1
+                if last:
+                    break
+            checks += 0 if drafts else len(children)
             parent, slot = (chosen[:n] // slots).astype(np.int32), chosen[:n] % slots
             code = out.code[parent, slot]
             kept.parent[kept.n : kept.n + n] = nodes[parent]
             kept.code[kept.n : kept.n + n] = code
             if n and (top := float(out.score[parent[0], slot[0]])) > best_score:
                 best, best_score = kept.n, top
-            if len(ended) and n:
-                goal = kept.n
-            layer, nodes = problem.follow(layer, parent, code), np.arange(kept.n, kept.n + n)
+            goal = kept.n if last else -1
+            layer, nodes = taken[:n].copy(), np.arange(kept.n, kept.n + n)
             if corridor is not None and n:
                 near = corridor.holds(layer)
                 layer, nodes = layer[near], nodes[near]
@@ -155,6 +140,7 @@ def search_layers(
             if tell is not None:
                 tell(depth, kept.n, best_score)
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     codes = []
     node = goal if goal >= 0 else best

@@ -5,6 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ..interrupts import passed_on
 from ..tasks import Task
 from .exact.costs import Aim
 from .exact.explore import Exploration, explore, inform
@@ -44,7 +45,7 @@ def plan_hybrid(
         profile: Name or file of a genetic profile, or a profile.
         max_evaluations: Most plans that each genetic search evaluates.
         max_stances: Memory: most stances that the exact search keeps.
-        seconds: Most wall-clock time [s]; a search that it ends is not repeatable.
+        seconds: Most time [s]; a search that it ends is not repeatable.
         threads: Threads; None for one a core.
         progress: Called now and then.
 
@@ -61,6 +62,8 @@ def plan_hybrid(
         "seed": seed, "profile": profile, "max_evaluations": max_evaluations, "threads": threads, "progress": progress,
     }  # fmt: skip
     first = plan_genetic(task, seconds=clock.left, seeds=_way_to_first_goal(task, threads, clock.left), **options)
+    if "interrupted" in first.reason:
+        return replace(first, planner="hybrid", seconds=clock.spent)
     most = first.length if first.has_plan else None
     seen = _explore(problem, most, max_stances, clock.left, progress)
     told = first
@@ -76,7 +79,8 @@ def _way_to_first_goal(task: Task, threads: int | None, seconds: float | None) -
         return ()
     near = pose_problem(first_goal_only(task), threads=threads).problem
     near, seconds = inform(near, seconds)
-    seen = explore(near, most_stances=SUB_PLAN, seconds=seconds)
+    with passed_on():
+        seen = explore(near, most_stances=SUB_PLAN, seconds=seconds)
     return (Plan.of_codes(task, seen.codes, planner="exact"),) if seen.found else ()
 
 

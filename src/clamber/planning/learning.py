@@ -81,6 +81,8 @@ def learn_macros(
         result = plan_genetic(
             task, seed=seed, profile=settings, max_evaluations=max_evaluations, threads=threads, progress=progress
         )
+        if "interrupted" in result.reason:  # what is known of the plans before stays
+            break
         plans += 1
         evaluations += result.evaluations
         if result.status != "found":

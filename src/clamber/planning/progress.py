@@ -117,11 +117,11 @@ class Shortening:
     """Actions of the plan."""
 
 
-Moment = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
-Listener = Callable[[Moment], None]
+ProgressEvent = Progress | Exploring | Routing | Trying | Layers | Shortening | Relaxing
+Listener = Callable[[ProgressEvent], None]
 
 
-def progress_text(progress: Moment) -> str:
+def progress_text(progress: ProgressEvent) -> str:
     """One moment of a search in a line of at most 80 columns."""
     if isinstance(progress, Routing):
         return f"{progress.stances} stances, {progress.actions} actions, {100.0 * progress.share:.0f} % of the way"

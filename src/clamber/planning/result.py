@@ -6,13 +6,14 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from ..family import family_of
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ..notebook import Pictured
 from ..tasks import Task
 from ..types import Ints
 from ..units import OZ_IN
 from .genetic.evolve import Generation
 from .genetic.learning import Macro
+from .problem.body_pose import named_pose, on_map
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import PlannedAction, plan_family, spent
@@ -30,6 +31,8 @@ class PlacedBody:
     theta_rad: float
     holds: dict[str, int]
     """Limb to the number of its hold, 0 if it is free; empty for robots without holds."""
+    pose: dict[str, float]
+    """Each coordinate of the body's pose, in the unit at the end of its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +60,8 @@ class Furthest(Jsonable):
     """Check -> how many of the inventory's modules it forbids at the furthest stance."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlanResult(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class PlanResult(Jsonable, Pictured):
     """A planner's answer. It proves itself: `check` replays the plan without the planner."""
 
     status: Status
@@ -109,14 +112,9 @@ class PlanResult(Jsonable):
     history: Annotated[tuple[Generation, ...], HIDDEN] = ()
     macros: Annotated[tuple[Macro, ...], HIDDEN] = field(default=())
 
-    def __repr__(self) -> str:
-        return f"<PlanResult {self.status}: {self.length} actions for {self.task.name!r} by {self.planner}, {self.seconds:.1f} s>"
-
-    def _repr_html_(self) -> str:
-        """The plan as a notebook shows it: a picture, with what was found below."""
-        codes = self.plan.codes(self.task, "plan")
-        replay = plan_family(self.task).problem(self.task).replay(codes, go_on=True)
-        return family_of(self.task).pictures.html(self.task, replay, f"{self.status}: {self.reason}")
+    def told(self) -> str:
+        """How it ended, of what, by whom."""
+        return f"{self.status}: {self.length} actions for {self.task.name!r} by {self.planner}, {self.seconds:.1f} s"
 
     @property
     @in_json(after="codes")
@@ -162,7 +160,7 @@ def furthest_of(task: Task, problem: CompiledProblem, codes: Ints) -> Furthest:
         if not tried.ok:
             name = problem.checks[int(tried.reasons[-1])]
             stopped[name] = stopped.get(name, 0) + 1
-    x, y, angle = family.pose(last[0])
-    pose = PlacedBody(x, y, angle, family.holds(task, last[0]))
+    axes, at = family.pose_axes, family.pose(task, last[0])
+    pose = PlacedBody(*on_map(axes, at), family.holds(task, last[0]), named_pose(axes, at))
     ranked = dict(sorted(stopped.items(), key=lambda item: (-item[1], item[0])))
     return Furthest(len(codes), family.goals_met(last[0]), problem.goals, pose, ranked)

@@ -8,8 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import PlannerError
+from ..interrupts import answer
 from ..tasks import Task
-from .problem.arrays import WayFields
+from .problem.arrays import CostToGoMap
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import listed_problem, plan_family
@@ -93,7 +94,7 @@ class _Memory:
 
 def climb(
     problem: CompiledProblem,
-    fields: WayFields,
+    fields: CostToGoMap,
     *,
     weight: float,
     share: float,
@@ -140,6 +141,7 @@ def climb(
                 best = int(state[BEST])
                 tell(int(state[NODES]), int(nodes.all.g[best]), float(nodes.all.way[best]), float(nodes.all.way[0]))
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     goal = int(state[GOAL]) if status == FOUND else int(state[BEST])
     return Climb(
@@ -184,7 +186,7 @@ def plan_route(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("stopped").
         progress: Called now and then.

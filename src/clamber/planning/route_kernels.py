@@ -7,7 +7,7 @@ import numpy as np
 
 from ..compiled import inlined, kernel
 from ..types import Floats, Ints
-from .problem.family_kernels import candidates, done, key, restore, step
+from .problem.family_kernels import candidates, done, draft, key, restore, step
 from .problem.randoms import scramble
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
@@ -182,6 +182,13 @@ def search(p, nodes, guide, state, room, tally, quota):
         visits[row, column] += 1
         state[EXPANDED] += 1
         for c in range(candidates(p, stances[0], codes)):
+            late = draft(p, stances[0], codes[c], stances[1])
+            if late > 0:
+                key(p, stances[1], words)
+                if table[rough_slot(words, table, keys)] >= 0:
+                    continue
+            if late < 0:
+                continue
             state[JUDGED] += 1
             reason = step(p, stances[0], codes[c], stances[1], margins)
             if reason >= 0:

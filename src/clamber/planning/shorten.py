@@ -7,9 +7,10 @@ from typing import Final
 import numpy as np
 
 from ..errors import SpecError
+from ..interrupts import answer
 from ..tasks import Task
 from ..types import Ints
-from .beam_layers import Beam, Corridor, search_layers
+from .beam_layers import Corridor, search_layers
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import goal_step, plan_family, pose_problem
@@ -142,6 +143,7 @@ def shorten_by_windows(
             else:
                 break
     except KeyboardInterrupt:
+        answer()
         return Shortened(codes, search.seen, search.checks, complete=False, interrupted=True)
     return Shortened(codes, search.seen, search.checks, search.complete)
 
@@ -201,6 +203,7 @@ def shorten_in_corridor(
                 break
             size = min(most, CORRIDOR_GROWTH * size)
     except KeyboardInterrupt:
+        answer()
         return Shortened(codes, seen, checks, complete=False, interrupted=True)
     return Shortened(codes, seen, checks, complete)
 
@@ -257,7 +260,10 @@ def shorten_by_beam(
     moved = strides[strides > 0.0]
     radius = steps * float(np.median(moved)) if len(moved) else 0.0
     reached = search_layers(
-        problem, Beam(width=width, longest=max(0, len(codes) - 1)), corridor=Corridor(places, radius), seconds=seconds
+        problem,
+        replace(problem.beam, width=width, longest=max(0, len(codes) - 1)),
+        corridor=Corridor(places, radius),
+        seconds=seconds,
     )
     better = reached.found and len(reached.codes) < len(codes) and is_plan(problem, reached.codes)
     return Shortened(reached.codes if better else codes, reached.stances, reached.checks, False, reached.interrupted)

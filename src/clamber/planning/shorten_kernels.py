@@ -8,7 +8,7 @@ import numpy as np
 from ..compiled import inlined, kernel
 from ..types import Ints, Records
 from .exact.records import NONE
-from .problem.family_kernels import bound, candidates, done, key, restore, step, toward
+from .problem.family_kernels import bound, candidates, done, draft, heuristic_between, key, restore, step
 from .stance_table import slot_of
 
 Keys = np.ndarray[tuple[int, ...], np.dtype[np.int64]]
@@ -61,7 +61,7 @@ def stance_keys(p, stances, keys):
 @inlined
 def left(p, s, target, to_goal):
     """Actions from a stance to the window's end at least: to the key of `target`, or to the goal."""
-    return math.ceil(bound(p, s) if to_goal else toward(p, s, target))
+    return math.ceil(bound(p, s) if to_goal else heuristic_between(p, s, target))
 
 
 @kernel
@@ -113,9 +113,13 @@ def search_window(p, line, window, to_goal, tree, room, state):
         closed[node] = 1
         restore(p, keys[node], stances[0])
         for c in range(candidates(p, stances[0], codes)):
-            judged += 1
-            if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+            late = draft(p, stances[0], codes[c], stances[1])
+            if late < 0:
                 continue
+            if late == 0:
+                judged += 1
+                if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                    continue
             key(p, stances[1], words)
             cost = g[node] + 1
             slot = slot_of(words, table, keys)
@@ -129,6 +133,10 @@ def search_window(p, line, window, to_goal, tree, room, state):
             gain = at - first - cost
             if f >= length - saved and gain <= saved:
                 continue
+            if late > 0:
+                judged += 1
+                if step(p, stances[0], codes[c], stances[1], margins) >= 0:
+                    continue
             if child < 0:
                 child = nodes
                 nodes += 1
@@ -157,7 +165,7 @@ def collect(p, plan, graph, room, state):
     """Expand the stances of a plan, then their children, and so on, layer by layer, until the arrays are full or the space ends.
 
     A stance from which no plan shorter than the given one can lead to the goal is left out: its fewest actions from the start and to the
-    goal are bounded by the family's `toward` and `bound`.
+    goal are bounded by the family's `heuristic_between` and `bound`.
 
     Args:
         p: A family's parameters.
@@ -192,7 +200,7 @@ def collect(p, plan, graph, room, state):
                 slot = slot_of(words, table, keys)
                 child = table[slot]
                 if child < 0:
-                    if math.ceil(toward(p, plan[0], stances[1])) + math.ceil(bound(p, stances[1])) >= length:
+                    if math.ceil(heuristic_between(p, plan[0], stances[1])) + math.ceil(bound(p, stances[1])) >= length:
                         continue
                     child = nodes
                     nodes += 1

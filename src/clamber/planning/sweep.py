@@ -14,6 +14,7 @@ from ..files import write_atomically
 from ..jobs import Executor, Outcome, map_items, read_result
 from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key, in_json
 from ..kernel_cache import is_compiled
+from ..notebook import Pictured
 from ..shown_units import SI, ShownUnits, units_of
 from ..tasks import Task, load_task, task_from_document
 from ..types import Json
@@ -73,8 +74,8 @@ class MarkedPoint:
     """Whether it lies in the marks of every axis that has some."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sweep(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Sweep(Jsonable, Pictured):
     """All points of a sweep, the last axis fastest."""
 
     task: str
@@ -85,6 +86,11 @@ class Sweep(Jsonable):
     """The last axis fastest."""
     units: Annotated[ShownUnits, HIDDEN] = SI
     """In which it is printed and drawn."""
+
+    def told(self) -> str:
+        """How many points have a plan, over what."""
+        keys = " and ".join(axis.key for axis in self.axes)
+        return f"{self.found} of {len(self.points)} points of {self.task!r} over {keys} have a plan"
 
     def marked(self, index: int) -> bool:
         """Whether a point lies in the marks of every axis that has some."""

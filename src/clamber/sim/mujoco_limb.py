@@ -58,7 +58,7 @@ class MujocoLimb:
         self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
+        self._initial_conditions = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
         self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
         self._forces = ForceSensing(chain, flaws, readings, self._sensed, self._truth)
@@ -82,10 +82,10 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
-        if self._chances is not None:
-            self._chances.restart()
+        if self._initial_conditions is not None:
+            self._initial_conditions.restart()
             if self._stride == 2:
-                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._chances.play
+                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._initial_conditions.play
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
         self._electronics.reset()
@@ -95,10 +95,12 @@ class MujocoLimb:
 
     def sense(self) -> Sensed:
         """See `Plant`."""
-        chances = self._chances
-        self._electronics.read(self._angles if chances is None else self._angles + chances.phase, self._speeds)
-        if chances is not None:
-            chances.disturb(self._sensed.states)
+        initial_conditions = self._initial_conditions
+        self._electronics.read(
+            self._angles if initial_conditions is None else self._angles + initial_conditions.phase, self._speeds
+        )
+        if initial_conditions is not None:
+            initial_conditions.disturb(self._sensed.states)
         self._sensed.number[0] = self.tick
         self._forces.sense(self.tick)
         return self._sensed

@@ -40,7 +40,7 @@ class OdeLimb:
         self._joints["damping"] *= flaws.damping
         self._joints["friction"] *= flaws.friction
         self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._chances = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
+        self._initial_conditions = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._force = np.zeros(2)
         self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
         self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
@@ -53,17 +53,19 @@ class OdeLimb:
         self._truth.states[:, 1] = 0.0
         self._truth.torques[:] = 0.0
         self._truth.wrenches[:] = 0.0
-        if self._chances is not None:
-            self._chances.restart()
+        if self._initial_conditions is not None:
+            self._initial_conditions.restart()
         self._electronics.reset()
         self.tick = 0
 
     def sense(self) -> Sensed:
         """See `Plant`."""
-        states, chances = self._truth.states, self._chances
-        self._electronics.read(states[:, 0] if chances is None else states[:, 0] + chances.phase, states[:, 1])
-        if chances is not None:
-            chances.disturb(self._sensed.states)
+        states, initial_conditions = self._truth.states, self._initial_conditions
+        self._electronics.read(
+            states[:, 0] if initial_conditions is None else states[:, 0] + initial_conditions.phase, states[:, 1]
+        )
+        if initial_conditions is not None:
+            initial_conditions.disturb(self._sensed.states)
         self._sensed.number[0] = self.tick
         return self._sensed
 

@@ -60,6 +60,16 @@ def task_names(family: str | None = None) -> tuple[str, ...]:
     return tuple(sorted(name for data in chosen for name in data_names(data / "tasks")))
 
 
+def task_family(name: str) -> str:
+    """Name of the family of a task that comes with Clamber.
+
+    Raises:
+        KeyError: If there is no such task.
+    """
+    found = {task: one.name for one in families() if one.data is not None for task in data_names(one.data / "tasks")}
+    return found[name]
+
+
 def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     """A task by its shipped name, such as "ladder", or from the user's TOML file.
 

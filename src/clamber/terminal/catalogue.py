@@ -29,6 +29,7 @@ LAW_TITLES: Final[dict[str, str]] = {
 
 BOARD_SCHEMA: Final = "clamber-board-1"
 GROUND_SCHEMA: Final = "clamber-ground-1"
+WORLD_SCHEMA: Final = "clamber-world-1"
 
 
 def _documents(kind: str) -> dict[str, dict[str, Any]]:
@@ -81,6 +82,7 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "robots": lambda: [*_shipped("robots"), *outside_titles("robots")],
     "boards": lambda: _shipped("worlds", BOARD_SCHEMA),
     "grounds": lambda: _shipped("worlds", GROUND_SCHEMA),
+    "worlds": lambda: _shipped("worlds", WORLD_SCHEMA),
     "tasks": lambda: _shipped("tasks"),
     "walks": lambda: _shipped("walks"),
     "plans": _plans,

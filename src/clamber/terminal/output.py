@@ -1,9 +1,10 @@
 """What commands print: JSON or tables on stdout, everything on the way on stderr."""
 
 import json
+import re
 import sys
 import time
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import fields
 from pathlib import Path
 from threading import Event, Thread
@@ -15,8 +16,8 @@ from rich.padding import Padding
 from rich.segment import Segment
 from rich.text import Text
 
-from ..errors import printable
-from ..regular_files import check_target
+from ..errors import FileError, printable
+from ..regular_files import check_target, is_there
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -36,9 +37,18 @@ def stdout() -> Console:
     return PlainConsole(highlight=False, markup=False, emoji=False)
 
 
+_lent: list[Console] = []
+"""The console of stderr on which a line is rewritten now, if there is one."""
+
+
+def borrow_stderr(console: Console | None) -> None:
+    """Have all that goes to stderr go to a console that rewrites its last line, so that neither breaks the other; None: no more."""
+    _lent[:] = [] if console is None else [console]
+
+
 def stderr() -> Console:
     """Where progress and notices go."""
-    return PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
+    return _lent[0] if _lent else PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
 
 
 def print_json(value: Any) -> None:
@@ -61,7 +71,7 @@ def announce_compilation(*, quiet: bool = False) -> None:
     if not quiet:
         kernel_cache.tell_no_cache()
         _command_ended.clear()
-        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(), stderr()), daemon=True).start()
+        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(),), daemon=True).start()
 
 
 _command_ended: Final = Event()
@@ -73,18 +83,18 @@ def fall_silent() -> None:
     _command_ended.set()
 
 
-def _tell_compilation(folder: Path, console: Console, every: float = 10.0, ended: Event = _command_ended) -> None:
+def _tell_compilation(folder: Path, every: float = 10.0, ended: Event = _command_ended) -> None:
     """Tells that kernels are compiled as soon as the first one comes into their folder, and how many there are while more come."""
     began = told = time.monotonic()
     seen, announced = _count_kernels(folder), False
     while not ended.wait(0.5):
         now, count = time.monotonic(), _count_kernels(folder)
         if not announced and count > seen:
-            console.print("compiling the kernels, once: about a minute, two where the machine is busy")
+            stderr().print("compiling the kernels, once: about a minute, two where the machine is busy")
             announced, told = True, now
         elif announced and now - told >= every:
             if count > seen:
-                console.print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
+                stderr().print(f"  {count} kernels compiled after {now - began:.0f} s", style="dim")
             seen, told = count, now
 
 
@@ -126,3 +136,29 @@ def check_writable(path: Path | None) -> None:
     """
     if path is not None:
         check_target(path)
+
+
+def check_new(path: Path, force: bool) -> None:
+    """Makes sure that a file can be written, and that nobody's work is lost by it.
+
+    Raises:
+        FileError: If it can't, or is there already and `force` is not given.
+    """
+    check_writable(path)
+    if is_there(path) and not force:
+        raise FileError(str(path), "is there already", "name another file, or write over it with --force")
+
+
+def print_new(written: Mapping[str, str], told: str, following: str) -> None:
+    """Print what `clamber new` made, the files by their kinds, and the command that comes next."""
+    console = stdout()
+    console.print(told)
+    for kind, path in written.items():
+        console.print(f"{kind} written to {path}", soft_wrap=True)
+    console.print(f"next: {following}", soft_wrap=True)
+
+
+def name_of(path: Path, kind: str = "wall") -> str:
+    """A name for what a file describes, from the file's."""
+    stem = re.sub(r"[^A-Za-z0-9_-]", "-", path.stem)[:56]
+    return stem if stem[:1].isalpha() else f"{kind}-{stem}"

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
 
 from ..errors import PlannerError
+from ..execution.log_scene import LoggedScene
 from ..execution.log_stream import LogGap, WantedLog
 from ..execution.run_report import RunReport
 from ..family import NotOfFamilyError
@@ -118,6 +119,10 @@ class CarriedOut(Protocol):
     @property
     def reason(self) -> str:
         """Why it did not; empty where it did."""
+
+    @property
+    def scene(self) -> LoggedScene | None:
+        """The trace in three dimensions, for logs; None where there is none."""
 
     @property
     def log_gap(self) -> LogGap | None:

@@ -50,6 +50,11 @@ class PlainRun(Jsonable):
         return None
 
     @property
+    def scene(self) -> None:
+        """None is kept, either."""
+        return None
+
+    @property
     def done(self) -> bool:
         """Whether the plan came to its end."""
         return self.report.done
@@ -112,6 +117,11 @@ class PlainSetup(Setup[PlainRun, PlainTrial]):
     planned: bool
     """Whether a planner made the plan, so that it is no part of what was asked for."""
     faults: tuple[str, ...] = ()
+
+    @property
+    def work(self) -> Task:
+        """See `Setup`."""
+        return self.task
 
     @property
     def worker(self) -> Callable[[Json], Json]:

@@ -3,12 +3,13 @@
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Generic, Protocol, TypeVar
 
+from ..interrupts import answer
 from ..jobs import Executor, Kept, Outcome, look_into, map_items
+from ..notebook import Pictured
 from ..planning.problem.plan import Plan
 from ..types import Json
 
@@ -62,6 +63,11 @@ class Setup(ABC, Generic[RunT, TrialT]):
 
     plan: Plan | None
     faults: tuple[str, ...]
+
+    @property
+    @abstractmethod
+    def work(self) -> Any:
+        """The task, or what else is carried out."""
 
     @property
     @abstractmethod
@@ -126,8 +132,8 @@ class Setup(ABC, Generic[RunT, TrialT]):
         return None if kept is None or kept.note is None else Plan.from_json(kept.note, "plan of the store")
 
 
-@dataclass(slots=True)
-class Trials(Generic[SetupT, TrialT]):
+@dataclass(slots=True, repr=False)
+class Trials(Pictured, Generic[SetupT, TrialT]):
     """Runs that ended, and how long they took."""
 
     setup: SetupT
@@ -142,6 +148,16 @@ class Trials(Generic[SetupT, TrialT]):
     def done(self) -> int:
         """Runs that came to their end."""
         return sum(trial.done for trial in self.ended)
+
+    def told(self) -> str:
+        """How many came to their end, with the interval of the share."""
+        low, high = wilson_interval(self.done, len(self.ended))
+        return f"{self.done} of {len(self.ended)} done, {100 * low:.0f} to {100 * high:.0f} % (95 %), of {self.setup.title}"
+
+    def again(self, seed: int) -> Any:
+        """One of them once more, with its whole run, as `clamber.run` gives it."""
+        run, _ = self.setup.again(seed, None, lambda words, share: None)
+        return run
 
 
 def run_trials(
@@ -185,7 +201,7 @@ def run_trials(
         if told is not None:
             told(trials)
 
-    with suppress(KeyboardInterrupt):
+    try:
         outcomes = map_items(
             setup.worker,
             [setup.item(seed) for seed in seeds],
@@ -202,6 +218,8 @@ def run_trials(
             setup.failed(seed, outcome.error or "") if outcome.result is None else setup.trial(outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
+    except KeyboardInterrupt:
+        answer()
     return trials
 
 

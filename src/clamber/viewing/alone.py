@@ -9,15 +9,15 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..family import NotOfFamilyError, families
+from ..family import Family, NotOfFamilyError, families
 from ..inspection.finding import Finding
-from ..inspection.open_file import file_kinds, inspect_file
+from ..inspection.open_file import family_of_thing, file_kinds, inspect_file, inspect_thing
 from ..tasks.robots import build_robot, family_in, read_robot
 from ..types import Floats, Json
 from . import style
-from .film import Film, MarginRow
 from .output import CANVASES, check_suffix, save_figure
 from .panel import LINE
+from .recording import MarginRow, Recording
 from .scene import Bounds
 from .style import styled
 from .view import Layout, is_wide
@@ -73,14 +73,30 @@ def open_alone(name_or_path: str, kind: str) -> ShownAlone:
     if kind == "robot":
         document = read_robot(name_or_path)
         family, thing = family_in(document), build_robot(document)
-        draws = family.pictures.robot_alone
     else:
         family = next(family for family in families() if family.files.world_key == kind)
         document, thing = family.files.read_world(name_or_path, None), file_kinds()[kind].load(name_or_path)
-        draws = family.pictures.world_alone
+    return ShownAlone(_alone(family, kind, thing, document.data), inspect_file(name_or_path, kind))
+
+
+def alone_of(thing: Any) -> ShownAlone | None:
+    """A robot or a world as Python has it, in SI units; None: it is neither.
+
+    Raises:
+        NotOfFamilyError: If its family draws none.
+    """
+    finding = inspect_thing(thing)
+    family = family_of_thing(thing)
+    if finding is None or family is None or not shown_alone(finding.kind):
+        return None
+    return ShownAlone(_alone(family, finding.kind, thing, {"family": family.name}), finding)
+
+
+def _alone(family: Family, kind: str, thing: Any, document: Json) -> Alone:
+    draws = family.pictures.robot_alone if kind == "robot" else family.pictures.world_alone
     if draws is None:
         raise NotOfFamilyError(family.title, f"picture of a {kind} alone")
-    return ShownAlone(draws(thing, document.data), inspect_file(name_or_path, kind))
+    return draws(thing, document)
 
 
 def draw_alone(shown: ShownAlone, path: str | Path) -> None:
@@ -110,7 +126,7 @@ def draw_alone(shown: ShownAlone, path: str | Path) -> None:
         save_figure(figure, path)
 
 
-class StillFilm(Film[Any]):
+class StillFilm(Recording[Any]):
     """A robot that stands still, or a world without one, with its facts."""
 
     def __init__(self, at: Any, finding: Finding) -> None:
@@ -121,17 +137,17 @@ class StillFilm(Film[Any]):
         self.starts = self.ends = np.zeros(1)
 
     def at(self, time: float) -> Any:
-        """See `Film`."""
+        """See `Recording`."""
         return self._at
 
     def values(self, at: Any) -> tuple[Floats, ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return ()
 
     def facts(self, step: int, at: Any) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return self._facts
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`."""
+        """See `Recording`."""
         return []

@@ -15,8 +15,8 @@ from PIL import Image
 
 from ..files import write_atomically
 from . import style
-from .film import Frame, Moment
 from .output import MissingExtraError
+from .recording import Frame, Moment
 
 Ints = npt.NDArray[np.int_]
 Pixels = npt.NDArray[np.uint8]

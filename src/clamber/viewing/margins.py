@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ..planning.problem.check import Check
 from ..planning.problem.problem import Replay
-from ..planning.problem.problems import NOTHING_LIMITS, Yardsticks
+from ..planning.problem.problems import NOTHING_LIMITS, Normalisation
 from ..shown_units import SI, ShownUnits
 from ..types import Floats
 
@@ -33,7 +33,7 @@ class Limiting:
         return f"{name} {self.value} ({share})"
 
 
-def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting | None:
+def limiting(normalisation: Normalisation, margins: Floats, reason: int) -> Limiting | None:
     """The hard check with the smallest relative margin, or the violated one; None where nothing is known.
 
     Args:
@@ -41,39 +41,41 @@ def limiting(yardsticks: Yardsticks, margins: Floats, reason: int) -> Limiting |
         margins: Margins of one step, each in its own unit, shape (n_checks,).
         reason: Number of the violated check, -1 for none.
     """
-    sizes = yardsticks.sizes
+    sizes = normalisation.sizes
     if reason >= 0:
-        check, margin = yardsticks.checks[reason], float(margins[reason])
-        return Limiting(check, margin, min(margin / sizes.get(check.name, 1.0), 0.0), yardsticks.units)
+        check, margin = normalisation.checks[reason], float(margins[reason])
+        return Limiting(check, margin, min(margin / sizes.get(check.name, 1.0), 0.0), normalisation.units)
     found: Limiting | None = None
-    for check, margin in zip(yardsticks.checks, margins.tolist(), strict=True):
-        if check.name not in sizes or check.name not in yardsticks.hard or not abs(margin) < NOTHING_LIMITS:
+    for check, margin in zip(normalisation.checks, margins.tolist(), strict=True):
+        if check.name not in sizes or check.name not in normalisation.hard or not abs(margin) < NOTHING_LIMITS:
             continue
         share = min(margin / sizes[check.name], 1.0) if sizes[check.name] > 0.0 else 1.0
         if found is None or share < found.share:
-            found = Limiting(check, margin, share, yardsticks.units)
+            found = Limiting(check, margin, share, normalisation.units)
     return found
 
 
-def named_limits(yardsticks: Yardsticks, margins: Mapping[str, float | None]) -> list[Limiting]:
+def named_limits(normalisation: Normalisation, margins: Mapping[str, float | None]) -> list[Limiting]:
     """Each hard check that has a size to be measured against and a margin, the one nearest to failing first.
 
     Args:
         yardsticks: Those of the task.
         margins: Check -> margin in its own unit; None where nothing limits it.
     """
-    sizes = {name: size for name, size in yardsticks.sizes.items() if 0.0 < size < math.inf}
+    sizes = {name: size for name, size in normalisation.sizes.items() if 0.0 < size < math.inf}
     found = [
-        Limiting(check, margin, min(margin / sizes[check.name], 1.0), yardsticks.units)
-        for check in yardsticks.checks
-        if check.name in sizes and check.name in yardsticks.hard and (margin := margins.get(check.name)) is not None
+        Limiting(check, margin, min(margin / sizes[check.name], 1.0), normalisation.units)
+        for check in normalisation.checks
+        if check.name in sizes and check.name in normalisation.hard and (margin := margins.get(check.name)) is not None
     ]
     return sorted(found, key=lambda limit: limit.share)
 
 
-def all_limiting(yardsticks: Yardsticks, replay: Replay) -> list[Limiting | None]:
+def all_limiting(normalisation: Normalisation, replay: Replay) -> list[Limiting | None]:
     """`limiting` of every step of a replay."""
-    return [limiting(yardsticks, row, int(reason)) for row, reason in zip(replay.margins, replay.reasons, strict=True)]
+    return [
+        limiting(normalisation, row, int(reason)) for row, reason in zip(replay.margins, replay.reasons, strict=True)
+    ]
 
 
 def grade(step: Limiting | None) -> int:

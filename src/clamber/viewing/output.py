@@ -11,7 +11,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..errors import ClamberError, describe_choices
+from ..errors import ClamberError, describe_choices, how_to_install
 from ..files import write_atomically
 from .style import styled
 
@@ -44,7 +44,7 @@ class MissingExtraError(ClamberError):
     def __str__(self) -> str:
         return (
             f"{self.what} needs the package '{self.package}', which is not installed; "
-            f"install 'clamber[{self.extra}]', or write .gif or .html"
+            f"{how_to_install(self.extra)}, or write .gif or .html"
         )
 
 

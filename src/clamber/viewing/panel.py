@@ -14,6 +14,8 @@ from . import style
 
 LINE = 0.19
 """Height of a line of text [in]."""
+TOLD = 0.14
+"""Height of the line below bars that says what their dotted lines are [in]."""
 GAP = 0.05
 """Between groups of bars [in]."""
 
@@ -52,7 +54,13 @@ class Gauges:
     @property
     def height(self) -> float:
         """Height of the block [in]."""
-        return self.pitch * len(self.names) + GAP * (len(self.names) // self.group) + 0.5
+        bars = self.pitch * len(self.names) + GAP * (len(self.names) // self.group) + 0.5
+        return bars + (TOLD if self.warns else 0.0)
+
+    @property
+    def warns(self) -> tuple[float, ...]:
+        """Shares of a bar beyond which it turns red though it is not at a limit."""
+        return tuple(share for share in self.calm if 0.0 < share < 1.0)
 
     @property
     def pitch(self) -> float:
@@ -93,12 +101,17 @@ class GaugeBars:
             value = axes.text(self.start + self.length + 0.06, y, "", fontsize=7, va="center", color=style.INK)
             self.values.append(value)
         self.bottom = place.top - gauges.height + 0.03
-        marks = {share: ("", ":") for share in gauges.calm if 0.0 < share < 1.0}
+        marks = {share: ("", ":") for share in gauges.warns}
         marks |= {share: (words, "-") for share, words in gauges.limits}
         for share, (words, line) in marks.items():
             x = self.start + share * self.length
-            axes.plot([x, x], [self.bottom + 0.03, top], color=style.ALERT, lw=0.8, ls=line)
+            foot = self.bottom + 0.03 + (TOLD if gauges.warns else 0.0)
+            axes.plot([x, x], [foot, top], color=style.ALERT, lw=0.8, ls=line)
             axes.text(x, top + 0.03, words, fontsize=6.5, ha="center", va="bottom", color=style.QUIET)
+        if gauges.warns:
+            y = self.bottom + 0.02
+            axes.plot([self.start, self.start + 0.18], [y, y], color=style.ALERT, lw=0.8, ls=":")
+            axes.text(self.start + 0.24, y, "where bars turn red", fontsize=6.5, va="center", color=style.QUIET)
         if 0.0 not in marks:
             axes.text(self.start, top + 0.03, "0", fontsize=6.5, ha="center", va="bottom", color=style.QUIET)
 

@@ -1,10 +1,7 @@
 """Pictures of any robot's plans and runs: each family says how its own are drawn."""
 
-import base64
-import io
 from collections.abc import Callable
 from dataclasses import dataclass
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
@@ -22,11 +19,11 @@ from ..trials.dynamics import CarriedOut
 from ..types import Floats
 from .alone import DrawsAlone
 from .animation import WRITERS, Animated
-from .film import View
 from .output import CANVASES, StepError, check_suffix, save_figure
+from .recording import View
 from .scene import Bounds
 from .style import styled
-from .view import Picture
+from .view import CloseUp, Picture
 
 if TYPE_CHECKING:
     from .report.run_page import RunPage
@@ -39,6 +36,16 @@ class RunPicture(Animated[Any], Protocol):
 
     def whole(self) -> Figure:
         """All of it in one picture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Chart:
+    """A world as a map of the first two coordinates of a body's poses."""
+
+    points: Callable[[Any], Floats]
+    """Places of a task's holds, or what else must be seen, on the map, shape (n, 2) [m]."""
+    world: Callable[[Axes, Any, Bounds], None]
+    """A task's world on given axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,22 +72,12 @@ class Pictures:
     """A robot without a task; None: it is not drawn."""
     world_alone: DrawsAlone | None = None
     """A world without a task; None: it is not drawn."""
+    near: "Callable[[Any, np.void], CloseUp] | None" = None
+    """One stance from near, for worlds in which the robot would be a dot; None: it is not drawn so."""
+    chart: Chart | None = None
+    """What maps of reachable places are drawn over, its points those of the holds; None: the world as it is drawn otherwise."""
     seen_from: "Callable[[str], Pictures] | None" = None
     """The same from a camera that is asked for in words; None: what is drawn is flat."""
-
-    def html(self, task: Any, replay: Replay, words: str) -> str:
-        """A plan, or a start without one, as a notebook shows it: a picture and words below."""
-        with styled():
-            if len(replay.reasons):
-                figure = self.route(task, replay)
-            else:
-                picture = Picture(self.view(task, replay))
-                picture.show(0, picture.view.settled(0))
-                figure = picture.figure
-            content = io.BytesIO()
-            figure.savefig(content, format="png")
-        data = base64.b64encode(content.getvalue()).decode("ascii")
-        return f'<img alt="{escape(words)}" src="data:image/png;base64,{data}"><p>{escape(words)}</p>'
 
 
 def pictures_of(task: Task, camera: str | None = None) -> Pictures:
@@ -137,6 +134,8 @@ def draw_stance(
     with styled():
         picture = Picture(family.view(task, replay))
         picture.show(step, picture.view.settled(step))
+        if family.near is not None:
+            picture.draw_near(family.near(task, replay.stances[step]))
         save_figure(picture.figure, target)
 
 
@@ -158,8 +157,8 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path, camera: str | Non
     """
     suffix = check_suffix(path, ANIMATIONS)
     if suffix not in WRITERS:
-        from .browser.exhibit import exhibit_of
         from .browser.page import write_page  # loads the viewer
+        from .browser.viewer_content import exhibit_of
 
         write_page(exhibit_of(task, plan), Path(path))
         return
@@ -189,11 +188,11 @@ def draw_run(run: CarriedOut, path: str | Path) -> None:
     suffix, file = check_run_suffix(path), Path(path)
     if suffix in LOGS:
         log = run.trace.to_log()
-        write_log(log, file, log.label)
+        write_log(log, file, log.label, run.scene)
         return
     if suffix in ANIMATIONS and suffix not in WRITERS:
-        from .browser.exhibit import run_exhibit  # loads the viewer
         from .browser.page import write_page
+        from .browser.viewer_content import run_exhibit  # loads the viewer
 
         write_page(run_exhibit(run), file)
         return

@@ -10,16 +10,18 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..family import family_of
+from ..planning.problem.body_pose import describe_body_pose
 from ..planning.problem.problem import Replay
+from ..shown_units import units_of
 from ..types import Floats
 from . import style
-from .browser.exhibit import Scenes
 from .browser.solids import FOV, Camera, Scenery, World, colour
 from .browser.solids import Figure as Solid
-from .film import Part, PlanView
+from .browser.viewer_content import Scenes
 from .panel import Gauges
 from .pictures import Pictures
-from .scene import Bounds, describe_pose, draw_region, fit_bounds, goal_box, set_axes
+from .recording import Part, PlanView
+from .scene import Bounds, draw_region, fit_bounds, goal_box, set_axes
 from .view import Layout, Picture
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ class Moment:
     """A robot at one moment."""
 
     pose: Floats
-    """Place [m] and angle [rad] of the body, world frame, shape (3,)."""
+    """Of the body, a number [m] or [rad] for each of the family's `pose_axes`, at least two: it is drawn at the first two."""
     tips: Floats
     """Place of each limb's hold, shape (limbs, 2) [m]; NaN for limbs that are free."""
     holds: tuple[int, ...]
@@ -57,7 +59,12 @@ def moment_of(task: Any, stance: np.void, shares: Floats, places: dict[int, tupl
     plans = family_of(task).plans
     held = tuple(plans.holds(task, stance).values())
     tips = np.array([places.get(number, (math.nan, math.nan)) for number in held]).reshape(-1, 2)
-    return Moment(np.array(plans.pose(stance)), tips, held, shares)
+    return Moment(np.array(plans.pose(task, stance)), tips, held, shares)
+
+
+def pose_words(task: Any, at: Moment) -> str:
+    """The body's pose in words."""
+    return describe_body_pose(family_of(task).plans.pose_axes, tuple(at.pose.tolist()), units_of(task.document))
 
 
 class PlainView(PlanView[Moment]):
@@ -110,7 +117,7 @@ class PlainView(PlanView[Moment]):
         for limb, old, new in zip(self.limbs, before.holds, after.holds, strict=True):
             if old != new:
                 return f"{limb} to {new}" if new else f"{limb} released"
-        return f"body to {describe_pose(self.task, *after.pose)}"
+        return f"body to {pose_words(self.task, after)}"
 
     def values(self, at: Moment) -> tuple[Floats, ...]:
         """Margins."""
@@ -119,7 +126,7 @@ class PlainView(PlanView[Moment]):
     def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """Pose and holds."""
         held = ", ".join(f"{limb} {hold or 'free'}" for limb, hold in zip(self.limbs, at.holds, strict=True))
-        return describe_pose(self.task, *at.pose), held or "none"
+        return pose_words(self.task, at), held or "none"
 
     def draw(self, picture: Picture[Moment]) -> "PlainArtists":
         """World and robot."""
@@ -200,14 +207,15 @@ def draw_route(task: Any, replay: Replay) -> Figure:
     wall.plot(way[:, 0], way[:, 1], color=style.INK, lw=1.2, zorder=3)
     for at in (moments[0], moments[-1]):
         PlainArtists(wall, len(at.holds)).update(at)
-    panel.text(0.0, layout.panel[1], f"to {describe_pose(task, *moments[-1].pose)}", fontsize=8.5, va="top")
+    panel.text(0.0, layout.panel[1], f"to {pose_words(task, moments[-1])}", fontsize=8.5, va="top")
     layout.fix_panel(panel)
     return figure
 
 
 def world_points(task: Any) -> Floats:
     """Holds and the start."""
-    return np.array([(task.start.x, task.start.y), *holds_of(task).values()])
+    plans = family_of(task).plans
+    return np.array([plans.pose(task, plans.problem(task).start[0])[:2], *holds_of(task).values()])
 
 
 class PlainSolid(Solid):
@@ -222,6 +230,7 @@ class PlainSolid(Solid):
     def show(self, at: Moment, grade: int = 3) -> None:
         """Body and limbs of a moment."""
         centre = np.array((at.pose[0], 0.0, at.pose[1]))
+        self.middle = centre
         self._ball.put(centre[None])
         if self._sticks is not None:
             tips = np.column_stack((at.tips[:, 0], np.zeros(len(at.tips)), at.tips[:, 1]))

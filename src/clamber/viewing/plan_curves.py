@@ -45,7 +45,7 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
 
     Args:
         history: One entry per generation.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
         goals: Names of sub-goals and goal, in order; each is marked at the generation that first meets it.
     """
     with drawing(path, (7.2, 4.8)) as figure:
@@ -88,7 +88,7 @@ def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) ->
     Args:
         task: The task of all of them; the line is the smallest limit of its joints.
         replays: Label -> the plan carried out.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
 
     Raises:
         NotOfFamilyError: If its robot has no joint torques.
@@ -134,7 +134,7 @@ def draw_front(front: Front, path: str | Path) -> None:
 
     Args:
         front: From `plan_front`.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 4.4)) as figure:
         axes = figure.subplots()

@@ -39,7 +39,7 @@ def draw_reach(reach: Reach, layer: str, path: str | Path) -> None:
     Args:
         reach: The reachable space.
         layer: One of the layers of the robot's family.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():
@@ -50,9 +50,10 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
     """The picture as a figure."""
     task: Any = reach.task
     world = pictures_of(task)
-    cell = task.step.length
-    spots = np.stack([reach.places.floats("x_m"), reach.places.floats("y_m")], axis=1)
-    bounds = fit_bounds(np.vstack([world.points(task), spots - cell, spots + cell]), task.goals)
+    cell = float(reach.lattice.step[0])
+    spots = np.stack([reach.places.floats(axis.column) for axis in reach.lattice.axes[:2]], axis=1)
+    chart = world.chart or world
+    bounds = fit_bounds(np.vstack([chart.points(task), spots - cell, spots + cell]), task.goals)
     across, up = bounds[1] - bounds[0], bounds[3] - bounds[2]
     scale = min(WIDEST / across, HIGHEST / up)
     wide, high = across * scale, up * scale
@@ -64,7 +65,7 @@ def reach_figure(reach: Reach, layer: str) -> Figure:
         return x / size[0], y / size[1], w / size[0], h / size[1]
 
     axes = figure.add_axes(place(LEFT, FOOT, wide, high))
-    world.world(axes, task, bounds)
+    chart.world(axes, task, bounds)
     shown = _field(axes, reach, layer)
     handles = [*_edge(axes, reach), *_marks(axes, reach)]
     _colour_bar(figure, figure.add_axes(place(LEFT + wide + 0.16, FOOT, 0.16, high)), shown, reach, layer)
@@ -118,7 +119,7 @@ def _shown(reach: Reach, layer: str) -> tuple[Floats, str, str]:
 
 def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
     """Colour the cell of each place."""
-    lattice, cell, start = reach.places.lattice, reach.task.step.length, reach.task.start
+    lattice, cell = reach.places.lattice, float(reach.lattice.step[0])
     values, _, _ = _shown(reach, layer)
     low, high = lattice.min(axis=0), lattice.max(axis=0)
     field = np.full((high[1] - low[1] + 1, high[0] - low[0] + 1), np.nan)
@@ -130,7 +131,7 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
     top = tail if top > 2.0 * tail > 0.0 else top
     bottom = float(finite.min())
     edges = (low[0] - 0.5, high[0] + 0.5, low[1] - 0.5, high[1] + 0.5)
-    origin = (start.x, start.x, start.y, start.y)
+    origin = np.repeat(reach.lattice.origin[:2], 2)
     window = axes.get_xlim(), axes.get_ylim()
     shown = axes.imshow(
         np.ma.masked_invalid(field),
@@ -147,7 +148,7 @@ def _field(axes: Axes, reach: Reach, layer: str) -> AxesImage:
 
 def _edge(axes: Axes, reach: Reach) -> list[Artist]:
     """Outline the places; where all were seen, each side in the colour of the check that forbids most body moves across it."""
-    cell, start = reach.task.step.length, reach.task.start
+    cell, start = float(reach.lattice.step[0]), reach.lattice.origin
     inside = set(map(tuple, reach.places.lattice.tolist()))
     rim = zip(reach.rim.lattice.tolist(), reach.rim.forbidden, strict=True) if reach.status == "complete" else ()
     closers = {(x, y): int(np.argmax(row)) for (x, y), row in rim}
@@ -156,7 +157,7 @@ def _edge(axes: Axes, reach: Reach) -> list[Artist]:
         for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
             if (x + dx, y + dy) in inside:
                 continue
-            middle = np.array([start.x + (x + 0.5 * dx) * cell, start.y + (y + 0.5 * dy) * cell])
+            middle = start[:2] + cell * np.array((x + 0.5 * dx, y + 0.5 * dy))
             along = 0.5 * cell * np.array([dy, dx])
             sides.setdefault(closers.get((x + dx, y + dy), -1), []).append(np.stack([middle - along, middle + along]))
     every = [side for group in sides.values() for side in group]
@@ -179,17 +180,34 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
     task: Any = reach.task
     handles: list[Artist] = []
     (mark,) = axes.plot(
-        task.start.x, task.start.y, marker="o", ms=6.5, mfc=style.PAPER, mec=style.INK, mew=1.6, ls="", zorder=6,
+        *reach.lattice.origin[:2], marker="o", ms=6.5, mfc=style.PAPER, mec=style.INK, mew=1.6, ls="", zorder=6,
         label="body at the start",
     )  # fmt: skip
     handles.append(mark)
+    chart = pictures_of(task).chart
+    if chart is not None and reach.holds:
+        handles += _limbs_at(axes, reach, chart.points(task))
     if reach.never_used:
-        spots = np.array([(hold.x, hold.y) for hold in task.world.holds if hold.number in reach.never_used])
+        places = [(hold.x, hold.y) for hold in task.world.holds] if chart is None else chart.points(task)
+        spots = np.array(places)[np.array(reach.never_used) - 1]
         crosses = axes.scatter(
             spots[:, 0], spots[:, 1], marker="x", s=34, lw=1.7, color=style.ALERT, zorder=6, label="hold never used",
             path_effects=[halo(1.0)],
         )  # fmt: skip
         handles.append(crosses)
+    return handles
+
+
+def _limbs_at(axes: Axes, reach: Reach, places: Floats) -> list[Artist]:
+    """Mark the holds that limbs can use, the larger the more limbs can."""
+    many = np.array([len(hold.limbs) for hold in reach.holds])
+    handles: list[Artist] = []
+    for count in sorted(set(many[many > 0].tolist())):
+        (marks,) = axes.plot(
+            *places[many == count].T, marker="o", ms=2.0 + 0.9 * count, mfc="none", mec=style.INK, mew=0.9, ls="", zorder=5,
+            label=f"hold of {count} limb{'s' if count > 1 else ''}", path_effects=[halo(0.6)],
+        )  # fmt: skip
+        handles.append(marks)
     return handles
 
 

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.problems import Yardsticks
+from ..planning.problem.problems import Normalisation
 from ..types import Floats
 from . import style
 from .margins import all_limiting, grade
@@ -61,10 +61,10 @@ def count_actions(replay: Replay) -> str:
 
 
 def write_facts(
-    panel: Axes, replay: Replay, yardsticks: Yardsticks, facts: Sequence[tuple[str, str]], height: float
+    panel: Axes, replay: Replay, normalisation: Normalisation, facts: Sequence[tuple[str, str]], height: float
 ) -> None:
     """Write what is to be said of a whole plan, its nearest limit and its strip at the top of the panel."""
-    limits = all_limiting(yardsticks, replay)
+    limits = all_limiting(normalisation, replay)
     worst = min((limit for limit in limits if limit is not None), key=lambda limit: limit.share, default=None)
     nearest = "not judged" if worst is None else f"{worst} at step {limits.index(worst) + 1}"
     for k, (name, words) in enumerate((("Actions", count_actions(replay)), *facts, ("Nearest limit", nearest))):

@@ -95,10 +95,6 @@ def halo(width: float = 1.8) -> withStroke:
     return withStroke(linewidth=width, foreground=style.PAPER)
 
 
-MOST_INCHES: Final = 480.0
-"""Larger pictures have their ticks in feet [in]."""
-
-
 def set_axes(axes: Axes, task: Task, bounds: Bounds) -> None:
     """Set up axes of world metres with ticks in the task's unit."""
     unit, size = length_unit(task)
@@ -106,8 +102,6 @@ def set_axes(axes: Axes, task: Task, bounds: Bounds) -> None:
     axes.set_aspect("equal")
     axes.set_facecolor(style.WALL)
     span = max(bounds[1] - bounds[0], bounds[3] - bounds[2]) / size
-    if unit == "in" and span > MOST_INCHES:
-        unit, size, span = "ft", 12.0 * size, span / 12.0
     every = 3.0 * 2.0 ** max(0, math.ceil(math.log2(span / 24))) if unit == "in" else _round(span / 8)
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MultipleLocator(every * size))

@@ -33,7 +33,7 @@ def draw_panels(
         panels: Panel's title -> label -> curve.
         axes_labels: Of the x and the y axis.
         title: Of the picture.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     labels = list(dict.fromkeys(label for curves in panels.values() for label in curves))
     colours = dict(zip(labels, style.PARTS, strict=False))
@@ -69,7 +69,7 @@ def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], p
     Args:
         inclined: Of the line between the holds at each stance [deg].
         errors: Rule -> RMS error of its angle there [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (6.4, 4.2)) as figure:
         axes = figure.subplots()

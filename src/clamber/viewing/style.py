@@ -67,17 +67,17 @@ Line: TypeAlias = str | tuple[int, tuple[float, ...]]
 LAW_COLOURS: Final[dict[str, str]] = {
     "scct": "#0072B2",
     "jacobian-transpose": "#D55E00",
-    "operational-space": "#009E73",
+    "operational-space": "#00A878",
     "resolved-rate": "#CC79A7",
-    "resolved-rate-plain": "#8C564B",
-    "joint-pd": "#6B6B6B",
-    "admittance": "#B5A900",
-    "implicit-admittance": "#56B4E9",
-    "hybrid": "#6A51A3",
-    "implicit-force": "#E69F00",
+    "resolved-rate-plain": "#6E2A1B",
+    "joint-pd": "#8A8A8A",
+    "admittance": "#4F5A00",
+    "implicit-admittance": "#56C4E9",
+    "hybrid": "#4A1486",
+    "implicit-force": "#E6A700",
 }
-"""Name of a law -> its colour."""
-OUTSIDE: Final = "#A6761D"
+"""Name of a law -> its colour: as far from each other as ten can be, for colour-blind readers, too."""
+OUTSIDE: Final = "#B5125B"
 """Laws of other packages."""
 WANTED: Final = INK
 """What was asked for."""

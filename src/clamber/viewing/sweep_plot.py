@@ -28,7 +28,7 @@ def draw_sweep(sweep: Sweep, path: str | Path) -> None:
 
     Args:
         sweep: One or two axes.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     check_suffix(path, CANVASES)
     with styled():

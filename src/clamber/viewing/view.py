@@ -1,25 +1,32 @@
 """A plan or a run at any of its moments: as a figure with its world on one side and what the moment says on the other, and as frames."""
 
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Final, Generic, Protocol, TypeVar
 
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 
 from . import style
-from .film import Frame, Moment, View, make_frames
 from .panel import LINE, GaugeBars, Place, StepStrip
-from .scene import Bounds
+from .recording import Frame, Moment, View, make_frames
+from .scene import Bounds, halo
 
 Shown = TypeVar("Shown", contravariant=True)
 """The same where it is only taken."""
 
 PANEL_WIDTH: Final = 3.7
-EDGE: Final = 0.5
+EDGE: Final = 0.58
 TITLE: Final = 0.80
 TEXTS: Final = 2.75
 """Height of facts, strip and key [in]."""
+SMALL: Final = 1.1
+"""A robot that is smaller in its world is shown from near, too [in]."""
+CUT_OUT: Final = 0.42
+"""Side of that picture over the smaller side of the world's [-]."""
 WIDE: Final = 1.7
 """Worlds that are wider than high by more than this have the panel below [-]."""
 
@@ -74,6 +81,16 @@ class Layout:
         """Set the panel's limits, in inches; last, for the strip's image sets limits of its own."""
         panel.set(xlim=(0.0, self.panel[0]), ylim=(0.0, self.panel[1]))
         panel.axis("off")
+
+
+@dataclass(frozen=True, slots=True)
+class CloseUp:
+    """A robot and what is about it."""
+
+    bounds: Bounds
+    """What is shown, world frame [m]."""
+    draw: Callable[[Axes], None]
+    """Draws it on axes, and sets them up."""
 
 
 class Robot(Protocol[Shown]):
@@ -142,6 +159,30 @@ class Picture(Generic[Moment]):
         self.robot.update(at)
         self.bars.update(view.values(at)[0])
         self.strip.update(step)
+
+    def draw_near(self, near: CloseUp) -> None:
+        """Draw the robot once more over a part of the world, larger, with a frame about its place, where it is small.
+
+        It stays as it is then: for still pictures.
+        """
+        x0, x1, y0, y1 = near.bounds
+        layout, size = self.layout, CUT_OUT * min(self.layout.wall)
+        if max(x1 - x0, y1 - y0) * layout.scale > SMALL or size < 1.5 * SMALL:
+            return
+        scale = size / max(x1 - x0, y1 - y0)
+        wide, high = scale * (x1 - x0), scale * (y1 - y0)
+        left = 0.5 * (x0 + x1) < 0.5 * sum(self.view.bounds[:2])
+        across = layout.wall[0] - wide - 0.12 if left else 0.12  # away from the robot, half-way up
+        place = layout.wall_at[0] + across, layout.wall_at[1] + 0.5 * (layout.wall[1] - high)
+        inset = layout.axes(self.figure, place, (wide, high))
+        near.draw(inset)
+        inset.set(xlim=(x0, x1), ylim=(y0, y1), xticks=(), yticks=(), xlabel="", ylabel="")
+        words = f"framed part, {scale / layout.scale:.0f} times as large"
+        inset.set_title(words, fontsize=8, weight="normal", pad=3, path_effects=[halo(3.0)])
+        self.wall.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, ec=style.ALERT, lw=0.9, zorder=20))
+        inset.patch.set_path_effects([halo(6.0)])
+        for spine in inset.spines.values():
+            spine.set(color=style.ALERT, lw=0.9)
 
 
 def _shortened(words: str, most: int) -> str:

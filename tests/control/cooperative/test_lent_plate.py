@@ -10,10 +10,10 @@ from walkers import hoshino
 from clamber.families.walker.control.cooperative.cooperator import Cooperator
 from clamber.families.walker.control.cooperative.freedoms import weights_of
 from clamber.families.walker.control.cooperative.holding import ToolHolder
-from clamber.families.walker.control.cooperative.lent_plate import HEIGHT, LentPlate
 from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
+from clamber.families.walker.control.cooperative.redundancy_allocation import HEIGHT, RedundancyAllocation
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
-from clamber.families.walker.execution.plate_room import open_share
+from clamber.families.walker.execution.free_base_freedoms import open_share
 from clamber.types import Floats
 
 PERIOD, RISE = 0.02, 0.002
@@ -22,8 +22,8 @@ PLACE = np.array([0.01, -0.02, 0.05])
 SUPPORTS: tuple[Support, ...] = ("delta", "y", "both")
 
 
-def lent(gain: float = 0.5, payload: float = 0.0) -> LentPlate:
-    return LentPlate(hoshino(), payload=payload, gain=gain, balance=0.02, rise=RISE, period=PERIOD)
+def lent(gain: float = 0.5, payload: float = 0.0) -> RedundancyAllocation:
+    return RedundancyAllocation(hoshino(), payload=payload, gain=gain, balance=0.02, rise=RISE, period=PERIOD)
 
 
 def with_height(share: float) -> Floats:

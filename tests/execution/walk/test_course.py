@@ -11,7 +11,7 @@ from springs_walker import flat
 from clamber.execution.sequencer import Sequencer
 from clamber.families.walker.control.gait import Limits
 from clamber.families.walker.control.track import compose, seen_from, straight
-from clamber.families.walker.execution.course import PlannedCourse, PlannedStep, TrackCourse
+from clamber.families.walker.execution.footstep_plan import PlannedCourse, PlannedStep, TrackCourse
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.walking import Walking
 from clamber.families.walker.planning.problem import WalkerProblem, walker_table

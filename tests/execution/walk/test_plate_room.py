@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from spring_walks import ROBOT
 
 from clamber.families.walker.control.gait import Limits, room_at
-from clamber.families.walker.execution.plate_room import FADE, PlateRoom, open_share
+from clamber.families.walker.execution.free_base_freedoms import FADE, FreeBaseFreedoms, open_share
 
 PERIOD = 0.02
 
@@ -38,7 +38,7 @@ def test_a_long_phase_leaves_the_freedom_whole_in_its_middle() -> None:
 @given(st.floats(0.3, 0.4), st.floats(0.0, 0.06), st.floats(-0.1, 0.1))
 def test_a_wish_is_granted_as_far_as_the_legs_have_room(own: float, room: float, wish: float) -> None:
     lowest, highest = own - 0.2 * room, own + 0.8 * room
-    plate = PlateRoom()
+    plate = FreeBaseFreedoms()
     height = plate.hold(own, lowest, highest, wish)
     assert lowest <= height <= highest
     assert plate.raised == pytest.approx(height - own, abs=1e-15)
@@ -60,6 +60,6 @@ def test_frames_beside_each_other_make_shorter_steps() -> None:
 
 
 def test_without_room_the_plate_is_as_walking_has_it() -> None:
-    plate = PlateRoom()
+    plate = FreeBaseFreedoms()
     assert plate.hold(0.35, 0.36, 0.34, 0.02) == 0.35
     assert (plate.lowest, plate.highest, plate.raised) == (0.35, 0.35, 0.0)

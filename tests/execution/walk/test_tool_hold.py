@@ -11,9 +11,9 @@ from springs_walker import SpringsWalker, flat, slope
 from clamber.execution.sequencer import Sequencer
 from clamber.families.walker.control.track import straight
 from clamber.families.walker.control.walker_balance import mass_centre
-from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.footstep_plan import TrackCourse
 from clamber.families.walker.execution.motions import ROOM
-from clamber.families.walker.execution.rehearsed_heights import rehearse
+from clamber.families.walker.execution.predicted_heights import predict_heights
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.tool_hold import CHANGE, ToolHold
 from clamber.families.walker.execution.walk_trace import PHASES, TracedWalker
@@ -84,6 +84,7 @@ def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pyt
     np.testing.assert_allclose(arms[-1], ARM.rest, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """Through a corner, 0.13 m of line on 0.12 m of way; the tool waits wherever the robot stands."""
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
@@ -252,7 +253,7 @@ def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None
 
     def lay(pose: Floats) -> TrackCourse:
         track = straight(pose, BEST, 0.3, RADIUS)
-        told.append(rehearse(walker, track, walker.arm).rooms)
+        told.append(predict_heights(walker, track, walker.arm).rooms)
         walker.arm_task = Look()
         return TrackCourse(track)
 

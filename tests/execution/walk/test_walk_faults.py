@@ -37,8 +37,8 @@ def test_a_walk_without_a_fault_notices_none() -> None:
     first_fast(
         [
             ("nan", 9.0, "no number"),
-            ("spikes", 0.1, "jump"),
             ("lost", 1.0, "no reading"),
+            ("spikes", 0.1, "jump"),
             ("late", 3.0, "late readings"),
             ("late", 8.0, "no reading"),  # none for more than 50 ms
             ("dead", 1.0, "no answer"),

@@ -10,7 +10,7 @@ from springs_walker import Ground, flat, slope
 
 from clamber.execution.sequencer import Sequencer
 from clamber.families.walker.control.track import straight, through, turn_about
-from clamber.families.walker.execution.course import TrackCourse
+from clamber.families.walker.execution.footstep_plan import TrackCourse
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.walk_report import WalkReport
 from clamber.families.walker.execution.walk_trace import PHASES, WalkTrace

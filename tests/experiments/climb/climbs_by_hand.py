@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NOISE, Noise, named_noise

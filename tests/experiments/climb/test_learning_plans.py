@@ -10,11 +10,11 @@ import pytest
 
 from clamber.errors import SpecError
 from clamber.families.climber.execution.climb_report import ActionReport, ClimbReport
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.cautions import STEADY, cautious
+from clamber.families.climber.trials.plan_validation import PlanValidation, grab_at_fault
 from clamber.families.climber.trials.planning import plan_to_climb
-from clamber.families.climber.trials.rehearsal import Rehearsal, grab_at_fault
+from clamber.families.climber.trials.planning_margins import STEADY, with_margins
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.planners import find_planner
 from clamber.planning.problem.plan import Plan
@@ -69,10 +69,11 @@ def test_bars_name_limbs_and_holds_that_there_are() -> None:
 
 def test_cautions_bar_holds_besides_those_of_the_task() -> None:
     task = climbing_task(load_task("ladder", ["rules.barred.left=[7]"]))
-    more = cautious(task, replace(STEADY[0], barred=(("left", 9), ("right", 8))))
+    more = with_margins(task, replace(STEADY[0], barred=(("left", 9), ("right", 8))))
     assert {name: set(numbers) for name, numbers in more.rules.barred.items()} == {"left": {7, 9}, "right": {8}}
 
 
+@pytest.mark.slow
 def test_a_grab_that_failed_is_made_elsewhere_and_then_done_without() -> None:
     task = climbing_task(load_task("ladder"))
     tried: list[Plan] = []
@@ -80,18 +81,18 @@ def test_a_grab_that_failed_is_made_elsewhere_and_then_done_without() -> None:
     def first_grab(plan: Plan) -> int:
         return next(step for step, action in enumerate(plan.actions, 1) if action.kind == "grab")
 
-    def stumbles(task: LimbedTask, plan: Plan) -> Rehearsal:
+    def stumbles(task: LimbedTask, plan: Plan) -> PlanValidation:
         tried.append(plan)
         lost = tried[1] if len(tried) > 1 else plan  # the first is of those that are easy: no lessons
         grab = lost.actions[first_grab(lost) - 1]
         if (grab.limb, grab.hold) not in grabs(plan):
-            return Rehearsal(3, 1.0)
+            return PlanValidation(3, 1.0)
         step = next(
             s for s, a in enumerate(plan.actions, 1) if (a.kind, a.limb, a.hold) == ("grab", grab.limb, grab.hold)
         )
-        return Rehearsal(0, 0.1, step)
+        return PlanValidation(0, 0.1, step)
 
-    plan = plan_to_climb(task, "auto", seconds=60.0, seed=0, threads=1, rehearse=stumbles)
+    plan = plan_to_climb(task, "auto", seconds=60.0, seed=0, threads=1, validate_plan=stumbles)
     assert plan is tried[-1] and len(tried) >= 3
     for again in tried[2:-1]:  # the same actions in another order
         assert Counter(again.codes(task).tolist()) == Counter(tried[1].codes(task).tolist())

@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.cautions import CAUTIONS, STEADY
 from clamber.families.climber.trials.planning import plan_to_climb, replanner
+from clamber.families.climber.trials.planning_margins import PLANNING_MARGINS, STEADY
 from clamber.planning.planners import PLANNERS, BuiltIn, find_planner
 from clamber.planning.result import PlanResult
 from clamber.tasks import Task, load_task
@@ -38,7 +38,7 @@ def test_the_plan_is_the_same_on_any_number_of_threads(name: str) -> None:
     assert not cuts
 
 
-@pytest.mark.parametrize(("took", "cuts"), [(4.9, 0), (5.0, 1 + len(CAUTIONS + STEADY))])
+@pytest.mark.parametrize(("took", "cuts"), [(4.9, 0), (5.0, 1 + len(PLANNING_MARGINS + STEADY))])
 def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search that finds nothing and has taken all its seconds was ended by them: then another machine may find a plan."""
     given: list[dict[str, Any]] = []
@@ -55,4 +55,4 @@ def test_every_search_that_its_time_ended_is_told(took: float, cuts: int, monkey
     replan = replanner("slow", seconds=5.0, seed=7, threads=1, events=RunEvents(cut=lambda: told.append(1)))
     assert replan(task) is None
     assert len(told) == cuts
-    assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(CAUTIONS + STEADY))
+    assert given == [{"seed": 7, "seconds": 5.0, "threads": 1}] * (1 + len(PLANNING_MARGINS + STEADY))

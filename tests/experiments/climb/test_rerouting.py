@@ -1,18 +1,20 @@
 """Another way on from somewhere in a plan: what comes before stays, and doubtful grabs are done without."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
-from clamber.families.climber.execution.course import lay_course
+from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.cautions import CAUTIONS, cautious
+from clamber.families.climber.trials.planning_margins import PLANNING_MARGINS, with_margins
 from clamber.families.climber.trials.rerouting import (
     LACK,
     cut_before,
     doubtful_grabs,
     grabs_of,
-    mended,
     other_end,
+    repaired,
     without,
 )
 from clamber.families.climber.trials.run_plan import climbing_task
@@ -22,9 +24,10 @@ from clamber.planning.problem.problems import plan_family
 from clamber.tasks import load_task
 
 
+@cache
 def found(name: str, planner: str = "beam") -> tuple[LimbedTask, Plan]:
     task = climbing_task(load_task(name))
-    result = find_planner(planner)(cautious(task, CAUTIONS[0]))
+    result = find_planner(planner)(with_margins(task, PLANNING_MARGINS[0]))
     return task, Plan.of_codes(task, result.plan.codes(task))
 
 
@@ -39,7 +42,7 @@ def test_another_end_keeps_what_comes_before_and_does_without_the_grab(back: int
     grab, cut = plan.actions[step - 1], cut_before(plan, step, back)
     assert plan.actions[cut].kind == "grab"
     assert sum(action.kind == "grab" for action in plan.actions[cut : step - 1]) == back
-    made = other_end(lay_course(task, plan), plan, step, back, without(CAUTIONS[0], plan, step), 60.0)
+    made = other_end(lay_course(task, plan), plan, step, back, without(PLANNING_MARGINS[0], plan, step), 60.0)
     assert made is not None
     codes = made.codes(task)
     assert np.array_equal(codes[:cut], plan.codes(task)[:cut])
@@ -71,7 +74,7 @@ def test_limbs_hold_by_the_grabs_that_they_made_last() -> None:
 def test_a_plan_without_doubts_is_not_mended() -> None:
     task, plan = found("ladder")
     assert doubtful_grabs(lay_course(task, plan)) == []
-    assert mended(task, plan, CAUTIONS[0], 60.0) is plan
+    assert repaired(task, plan, PLANNING_MARGINS[0], 60.0) is plan
 
 
 def test_hooks_that_lack_what_is_wished_put_the_grab_in_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -88,7 +91,7 @@ def test_the_plan_for_h_loses_its_doubtful_grab() -> None:
     task, plan = found("h", "exact")
     doubtful = doubtful_grabs(lay_course(task, plan))
     assert doubtful
-    made = mended(task, plan, CAUTIONS[0], 60.0)
+    made = repaired(task, plan, PLANNING_MARGINS[0], 60.0)
     assert made is not None
     assert doubtful_grabs(lay_course(task, made)) == []
     cut = cut_before(plan, doubtful[0], 4)

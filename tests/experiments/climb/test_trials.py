@@ -18,7 +18,7 @@ from climbs_by_hand import setup_of
 import clamber
 from clamber.errors import SpecError
 from clamber.families.climber.execution.climb_trace import TracedClimber
-from clamber.families.climber.execution.course import PlanRefusedError
+from clamber.families.climber.execution.executable_plan import PlanRefusedError
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials import run_plan as runs
 from clamber.families.climber.trials import trial as one

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.families.walker.planning import load_walk
-from clamber.families.walker.trials.most import Tried, find_most
+from clamber.families.walker.trials.max_setting import Tried, find_most
 from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 
 

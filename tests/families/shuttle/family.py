@@ -13,9 +13,10 @@ from clamber.execution.run_report import RunReport
 from clamber.family import Family
 from clamber.files import Document, find_data, read_toml
 from clamber.inspection.finding import Finding, Inspection
-from clamber.planning.openings.relaxations import key_dial
-from clamber.planning.problem.arrays import ActionTable, Params, WayFields
-from clamber.planning.problem.check import TICKS, Check
+from clamber.planning.infeasibility.relaxations import key_dial
+from clamber.planning.problem.arrays import ActionTable, CostToGoMap, Params
+from clamber.planning.problem.body_pose import PoseAxis, PoseLattice
+from clamber.planning.problem.check import Check
 from clamber.planning.problem.code_limits import CodeLimits
 from clamber.planning.problem.codes import HOLD, MOVE, NONE, RELEASE, Code, pack
 from clamber.planning.problem.plan import Plan
@@ -28,7 +29,7 @@ from clamber.tasks.task_format import TaskFormat, hashes_of
 from clamber.trials.noise import NoiseKind
 from clamber.trials.plain_dynamics import PlainDynamics
 from clamber.types import Json
-from clamber.units import Angle, Length, PositiveLength
+from clamber.units import Length, PositiveLength
 
 from .kernels import GOAL, PARAMS, REACH, STANCE
 
@@ -69,7 +70,6 @@ class Line:
 @spec
 class Step:
     length: PositiveLength
-    angle: Angle = 1.0
 
 
 @spec
@@ -77,8 +77,6 @@ class Start:
     x: Length
     front: int
     back: int
-    y: Length = 0.0
-    theta: Angle = 0.0
 
 
 @spec
@@ -134,7 +132,7 @@ def read_line(name: str, folder: Path | None = None) -> Document:
 
 
 class Problem(CompiledProblem):
-    key_words, spot_words = 4, 5
+    key_words, pose_words = 4, 4
 
     def __init__(self, task: Task, threads: int | None = None) -> None:
         self.task, self.rungs = task, np.array(task.world.rungs, np.float64)
@@ -143,7 +141,7 @@ class Problem(CompiledProblem):
         row["step"], row["reach"], row["origin"] = task.step.length, task.robot.reach, task.start.x
         hard = sum(1 << k for k, name in enumerate(HARD) if name in task.rules.hard)
         row["hard"], row["n_limbs"], row["n_goals"], row["kinds"][:7] = hard, 2, len(goals), (0, 0, 1, 0, 1, 1, 2)
-        row["turn_ticks"], row["base"] = TICKS, self.way
+        row["base"] = self.way
         for k, goal in enumerate(task.goals):
             goals[k] = goal.box[:2]
         start = np.zeros(1, STANCE)
@@ -178,13 +176,13 @@ class Problem(CompiledProblem):
         low, high = self.task.goals[0].box[:2]
         return max(0.0, low - self.task.start.x, self.task.start.x - high)
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         low, high = self.task.goals[0].box[:2]
         grid = np.arange(-0.2, max(self.task.world.rungs) + 0.2, self.task.step.length)
         away = [
             np.maximum(0.0, np.maximum(low - at, at - high))[None] / self.task.step.length for at in (grid, self.rungs)
         ]
-        return WayFields(np.array((grid[0], 0.0, self.task.step.length)), away[0][None], away[1], np.zeros(1))
+        return CostToGoMap(np.array((grid[0], 0.0, self.task.step.length)), away[0][None], away[1], np.zeros(1))
 
     def is_done(self, stance: Any) -> bool:
         return bool(stance["stage"][0] >= len(self.task.goals))
@@ -218,7 +216,7 @@ class Plans(PlanFamily):
     def action(self, task: Task, code: int, after: np.void, gene: str | None) -> PlannedAction:
         opened = Code.of(code)
         if opened.kind == "move":
-            return PlannedAction(kind="move", delta=((1 - 2 * opened.argument) * task.step.length, 0.0, 0.0), gene=gene)
+            return PlannedAction(kind="move", delta=((1 - 2 * opened.argument) * task.step.length, 0.0), gene=gene)
         limb = task.robot.limb_names[opened.limb]
         if opened.kind == "hold":
             return PlannedAction(kind="grab", limb=limb, hold=opened.argument + 1, gene=gene)
@@ -236,8 +234,14 @@ class Plans(PlanFamily):
         opened = Code.of(code)
         return f"{opened.kind} {opened.limb} {opened.argument}"
 
-    def pose(self, stance: np.void) -> tuple[float, float, float]:
-        return float(stance["x"]), 0.0, 0.0
+    pose_axes = (PoseAxis("x", "m"), PoseAxis("y", "m"))
+
+    def pose(self, task: Task, stance: np.void) -> tuple[float, ...]:
+        return float(stance["x"]), 0.0
+
+    def lattice(self, task: Task, problem: CompiledProblem) -> PoseLattice:
+        start, step = np.array((task.start.x, 0.0)), np.full(2, task.step.length)
+        return PoseLattice(axes=self.pose_axes, origin=start, step=step, period=np.zeros(2, np.int64))
 
     def holds(self, task: Task, stance: np.void) -> dict[str, int]:
         return {name: int(foot) + 1 for name, foot in zip(task.robot.limb_names, stance["hold"], strict=True)}

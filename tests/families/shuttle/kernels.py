@@ -12,7 +12,7 @@ from clamber.planning.problem.family_kernels import family_kernels
 REACH, SUPPORT = 0, 1
 PARAMS = np.dtype([
     ("step", "f8"), ("reach", "f8"), ("origin", "f8"), ("base", "f8"), ("hard", "i4"), ("n_goals", "i4"), ("n_limbs", "i4"),
-    ("turn_ticks", "i8"), ("kinds", "i4", (8,)),
+    ("kinds", "i4", (8,)),
     ("goals_at", "i8"), ("rungs_at", "i8"), ("n_rungs", "i8"),
 ], align=True)  # fmt: skip
 GOAL = np.dtype([("x_min", "f8"), ("x_max", "f8")], align=True)
@@ -132,7 +132,7 @@ def bound(p, s):
 
 
 @kernel
-def toward(p, s, t):
+def heuristic_between(p, s, t):
     """Moves between two places."""
     return float(abs(t.ticks - s.ticks))
 
@@ -150,20 +150,20 @@ def cell(p, s):
 
 
 @kernel
-def spot(p, s, words):
+def body_pose(p, s, words):
     """Its place and feet."""
-    words[0], words[1], words[2] = s.ticks * TICKS, 0, 0
+    words[0], words[1] = s.ticks * TICKS, 0
     for f in range(2):
-        words[3 + f] = s.hold[f]
+        words[2 + f] = s.hold[f]
 
 
 @kernel
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether it is where goal k asks for."""
     return meets(s, goals(p)[k])
 
 
 family_kernels(
-    PARAMS, step=step, candidates=candidates, key=key, restore=restore, measure=measure, bound=bound, toward=toward,
-    done=done, cell=cell, spot=spot, aims=aims,
+    PARAMS, step=step, candidates=candidates, key=key, restore=restore, measure=measure, bound=bound, heuristic_between=heuristic_between,
+    done=done, cell=cell, body_pose=body_pose, satisfies_goal=satisfies_goal,
 )  # fmt: skip

@@ -9,7 +9,7 @@ from page_visits import Visit
 
 from clamber.tasks import load_task
 from clamber.viewing.browser.app import LOOPBACK, App
-from clamber.viewing.browser.exhibit import Exhibit
+from clamber.viewing.browser.viewer_content import ViewerContent
 from clamber.viewing.browser.work_panel import carry_out, make_plan
 
 
@@ -51,7 +51,7 @@ def serve() -> Iterator[Callable[..., App]]:
     """Opens a viewer."""
     apps = []
 
-    def open_app(exhibit: Exhibit, host: str = LOOPBACK, *, folder: Path = Path()) -> App:
+    def open_app(exhibit: ViewerContent, host: str = LOOPBACK, *, folder: Path = Path()) -> App:
         apps.append(App(exhibit, host, folder=folder))
         return apps[-1]
 

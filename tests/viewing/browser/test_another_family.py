@@ -16,13 +16,13 @@ from clamber.planning.problem.problem import Replay
 from clamber.types import Floats
 from clamber.viewing import style
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import Scenes, exhibit_of
 from clamber.viewing.browser.page import write_page
 from clamber.viewing.browser.solids import Camera, Figure, Scenery, Sticks, World, colour
-from clamber.viewing.film import Part, PlanView
+from clamber.viewing.browser.viewer_content import Scenes, exhibit_of
 from clamber.viewing.output import SuffixError
 from clamber.viewing.panel import Gauges
 from clamber.viewing.pictures import Pictures, animate, check_run_suffix, draw_run, draw_stance
+from clamber.viewing.recording import Part, PlanView
 from clamber.viewing.scene import Bounds
 from clamber.viewing.view import Picture
 

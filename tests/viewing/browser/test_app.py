@@ -22,8 +22,8 @@ from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import Task, load_task
 from clamber.viewing.browser import work_panel
 from clamber.viewing.browser.app import App, PortError, check_port
-from clamber.viewing.browser.exhibit import Planned, open_exhibit
-from clamber.viewing.film import Film
+from clamber.viewing.browser.viewer_content import Planned, open_exhibit
+from clamber.viewing.recording import Recording
 
 Serve = Callable[..., App]
 
@@ -82,20 +82,20 @@ def test_plan_and_run_are_made_and_shown_together(serve: Serve, compiled: None) 
     assert app.exhibit.task is not None and app.exhibit.plan is None
     work._reserves.value = False
     work.plan()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     assert app.exhibit.plan is not None and set(app.stage.films) == {"plan"}
     work._reserves.value = True
     work.plan()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     work.run()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     film = app.exhibit.run_film
     assert isinstance(film, ClimbFilm) and app.playback.film is film
     assert app.stage.shown == "both" and set(app.stage.films) == {"plan", "run"}
     app.playback.jump(1)
     assert shown_figures(app) == {"run", "plan ghost"}
     app.choose("plan")
-    plan: Film[Any] = app.stage.films["plan"]
+    plan: Recording[Any] = app.stage.films["plan"]
     assert app.playback.film is plan
     assert shown_figures(app) == {"plan"}
     board.apply()  # another board has no plan yet
@@ -261,7 +261,7 @@ def test_a_run_that_nothing_judges_shows_the_margins_of_its_plan(serve: Serve, c
     assert work is not None
     for act in (work.plan, work.run):
         act()
-        eventually(lambda: not work.labour.busy)
+        eventually(lambda: not work.background_task.busy)
     app.playback.jump(1)
     assert "of the plan, at its step" in app.stage._texts["margins"].content
     app.choose("run")
@@ -284,11 +284,11 @@ def test_what_is_found_for_a_board_that_was_changed_meanwhile_is_left_out(
 
     monkeypatch.setattr(work_panel, "make_plan", edited_meanwhile)
     work.plan()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     assert "changed meanwhile" in work._plan_words.content and app.exhibit.plan is None
     monkeypatch.setattr(work_panel, "make_plan", lambda *rest, **options: answer)
     work.plan()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     assert "found" in work._plan_words.content and app.exhibit.plan is answer.plan
 
 
@@ -322,7 +322,7 @@ def test_a_walkers_task_is_planned_on_the_ground_as_it_was_edited(serve: Serve) 
     ground._pressed("remove")
     work._reserves.value = False
     work.plan()
-    eventually(lambda: not work.labour.busy)
+    eventually(lambda: not work.background_task.busy)
     task, plan = app.exhibit.task, app.exhibit.plan
     assert isinstance(task, WalkerTask) and plan is not None and check_plan(task, plan).ok
     last = app.stage.films["plan"]

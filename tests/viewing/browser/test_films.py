@@ -16,7 +16,7 @@ from clamber.execution.log import LogError
 from clamber.execution.log_files import write_log
 from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.climb_trace import TOPIC
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.pictures.climb_run import ClimbFilm
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
@@ -26,8 +26,8 @@ from clamber.family import family_of
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from clamber.viewing.browser.exhibit import Exhibit, exhibit_of, open_exhibit
-from clamber.viewing.film import Film, PlanView
+from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of, open_exhibit
+from clamber.viewing.recording import PlanView, Recording
 from clamber.viewing.scene import join
 
 
@@ -40,15 +40,15 @@ def climbed() -> ClimbRun:
 
 
 @pytest.fixture(scope="module")
-def hand() -> Exhibit:
+def hand() -> ViewerContent:
     return open_exhibit(["ladder-hand"])
 
 
-def run_film_of(run: ClimbRun) -> Film[Any]:
+def run_film_of(run: ClimbRun) -> Recording[Any]:
     return family_of(run.task).scenes.run_film(exhibit_of(run.task), run)
 
 
-def test_plan_rests_in_its_stances(hand: Exhibit) -> None:
+def test_plan_rests_in_its_stances(hand: ViewerContent) -> None:
     film = hand.plan_film
     assert isinstance(film, PlanView)
     for step in range(len(film.steps)):
@@ -57,7 +57,7 @@ def test_plan_rests_in_its_stances(hand: Exhibit) -> None:
         np.testing.assert_allclose(at.torques, settled.torques, atol=1e-9)
 
 
-def test_plan_moves_without_jumps(hand: Exhibit) -> None:
+def test_plan_moves_without_jumps(hand: ViewerContent) -> None:
     film = hand.plan_film
     assert film is not None
     times = np.arange(0.0, film.seconds, 1.0 / 200.0)
@@ -69,7 +69,7 @@ def test_plan_moves_without_jumps(hand: Exhibit) -> None:
     assert film.step_at(0.0) == 0 and film.step_at(film.seconds) == len(film.steps) - 1
 
 
-def test_margins_of_a_step_are_those_of_the_replay(hand: Exhibit) -> None:
+def test_margins_of_a_step_are_those_of_the_replay(hand: ViewerContent) -> None:
     film = hand.plan_film
     assert isinstance(film, PlanView)
     worst = film.worst

@@ -12,8 +12,8 @@ from clamber.families.walker.planning import Walk, load_walk, walk_names
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.tasks import Task, load_task
 from clamber.tasks.task_format import task_files
-from clamber.viewing.browser.exhibit import exhibit_of
 from clamber.viewing.browser.inputs import about
+from clamber.viewing.browser.viewer_content import exhibit_of
 
 
 def terrace() -> GroundDraft:

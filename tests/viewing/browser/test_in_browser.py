@@ -15,8 +15,8 @@ from clamber.planning.problem.plan import load_plan
 from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.page import write_page
+from clamber.viewing.browser.viewer_content import open_exhibit
 
 Open = Callable[[str], Visit]
 Serve = Callable[..., App]
@@ -264,7 +264,7 @@ def test_work_is_stopped_by_a_click(serve: Serve, visit: Open, compiled: None) -
     shown.press("Plan")
     shown.page.get_by_role("button", name="Stop", exact=True).click()
     shown.says("stopped")
-    assert app.work is not None and not app.work.labour.busy
+    assert app.work is not None and not app.work.background_task.busy
     assert shown.wrong == []
 
 

@@ -14,7 +14,7 @@ class Ears:
         self.done: list[object] = []
         self.failed: list[str] = []
         self.ended = threading.Event()
-        self.labour = Labour(lambda words, share: self.said.append(words))
+        self.background_task = Labour(lambda words, share: self.said.append(words))
 
     def begin(self, work: object) -> bool:
         def done(found: object) -> None:
@@ -25,13 +25,13 @@ class Ears:
             self.failed.append(why)
             self.ended.set()
 
-        return self.labour.begin(work, done, failed)  # type: ignore[arg-type]
+        return self.background_task.begin(work, done, failed)  # type: ignore[arg-type]
 
 
 def test_the_seconds_go_on_while_the_work_says_nothing_new(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("clamber.viewing.browser.work_panel.TICK", 0.01)
     ears, heard = Ears(), threading.Event()
-    ears.labour = Labour(lambda words, share: (ears.said.append(words), len(ears.said) < 3 or heard.set())[0])
+    ears.background_task = Labour(lambda words, share: (ears.said.append(words), len(ears.said) < 3 or heard.set())[0])
 
     def work(tell: Tell) -> bool:
         tell("rehearsing")
@@ -59,7 +59,7 @@ def test_what_is_done_is_handed_on() -> None:
 def test_second_piece_of_work_waits_for_nobody_and_is_refused() -> None:
     ears, go = Ears(), threading.Event()
     assert ears.begin(lambda tell: go.wait(5.0))
-    assert ears.labour.busy
+    assert ears.background_task.busy
     assert not ears.begin(lambda tell: None)
     go.set()
     assert ears.ended.wait(5.0)
@@ -73,10 +73,10 @@ def test_work_stops_where_it_next_tells() -> None:
             tell("on and on")
 
     assert ears.begin(work)
-    ears.labour.stop(wait=5.0)
+    ears.background_task.stop(wait=5.0)
     assert ears.ended.wait(5.0)
     assert ears.failed == ["stopped"]
-    assert not ears.labour.busy
+    assert not ears.background_task.busy
 
 
 @pytest.mark.parametrize(

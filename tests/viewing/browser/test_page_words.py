@@ -8,7 +8,7 @@ import pytest
 
 from clamber.tasks import load_task
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.exhibit import exhibit_of, open_exhibit
+from clamber.viewing.browser.viewer_content import exhibit_of, open_exhibit
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,9 @@ from clamber.families.walker.pictures.walker_loads import leg_force_gauges
 from clamber.families.walker.robot import WalkerRobot
 from clamber.tasks.robots import load_robot
 from clamber.viewing import style
-from clamber.viewing.browser.exhibit import open_exhibit
 from clamber.viewing.browser.panel_html import head_html, loads_html, margins_html, message_html, strip_html
-from clamber.viewing.film import MarginRow
+from clamber.viewing.browser.viewer_content import open_exhibit
+from clamber.viewing.recording import MarginRow
 
 
 def row(name: str, share: float, **keys: bool) -> MarginRow:

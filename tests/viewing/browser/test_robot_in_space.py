@@ -7,8 +7,8 @@ from page_visits import Visit
 
 from clamber.planning.beam import plan_beam
 from clamber.tasks import load_task
-from clamber.viewing.browser.exhibit import exhibit_of
 from clamber.viewing.browser.page import write_page
+from clamber.viewing.browser.viewer_content import exhibit_of
 
 
 def test_a_page_shows_a_plan_with_its_steps_and_margins(visit: Callable[[str], Visit], tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from clamber.families.walker.pictures.walker_loads import grip_in_use
 from clamber.families.walker.planning import load_walk
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.units import GRAVITY
-from clamber.viewing.browser.exhibit import open_exhibit
+from clamber.viewing.browser.viewer_content import open_exhibit
 
 WEIGHT = 80.0 * GRAVITY
 AXES = "xyz"

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from clamber.cli import main
-from clamber.families.climber.execution.course import climbable
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.walker.pictures.report import piece_in_words

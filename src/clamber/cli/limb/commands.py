@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Final
 import typer
 from rich.console import Console
 
-from ...terminal.crew import EndsLine
 from ...terminal.options import takes_options
 from ...terminal.output import announce_compilation, stderr
+from ...terminal.worker_options import EndsLine
 from . import options as opt
 from .force import force, open_loop
 from .identify import identify, record
@@ -165,13 +165,14 @@ def _compare(
     announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
     reference, at = reference_law(words.reference, words.kp, words.kd), match_pose(limb, scenario)
     entries = make_entries(limb, words.controllers or (), reference, words.match.value, at)
-    result = compare_laws(
-        Contest(limb, scenario, entries, flaws, words.plant),
-        trials=words.trials,
-        workers=words.crew,
-        matching=Matching(reference, words.match.value, at),
-        progress=EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1).update,
-    )
+    with EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1) as line:
+        result = compare_laws(
+            Contest(limb, scenario, entries, flaws, words.plant),
+            trials=words.trials,
+            workers=words.crew,
+            matching=Matching(reference, words.match.value, at),
+            progress=line.update,
+        )
     words.tell(result, lambda console: print_comparison(console, result, everything=words.everything))
     raise typer.Exit(0 if result.stable else 1)
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 from rich.console import Console
 
-from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Output, Quiet, Settings
 from ...terminal.output import check_writable, print_json, stdout
+from ...terminal.worker_options import Batch, WorkerOptions
 from ...viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -147,15 +147,17 @@ class FileWords:
         tell_written(stdout(), self.output, *logged)
 
 
-def crew_of(words: CrewWords, what: str) -> "Crew":
-    """Who works through items, called so."""
+def crew_of(words: WorkerOptions, batch: Batch) -> "Crew":
+    """Who works through the items of a batch."""
     from ...limb_bench.runner import Crew
 
-    told = words.line(what).update
-    return Crew(executor=words.executor, store=words.store, resume=words.resume, progress=told)
+    told, then = batch.line.update, batch.line.follow
+    return Crew(executor=words.executor, store=batch.store, resume=words.resume, progress=told, then=then)
 
 
-def tell_batch(result: "BenchResult", words: CrewWords, show: Callable[[Console], None], *also: Path | None) -> None:
+def tell_batch(
+    result: "BenchResult", words: WorkerOptions, show: Callable[[Console], None], *also: Path | None
+) -> None:
     """Write the output, then print the result: as JSON, or by `show` and with the names of the files, `also` first."""
     if words.output is not None:
         result.write(words.output)

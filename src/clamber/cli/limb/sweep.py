@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Annotated, Final
 import typer
 from rich.console import Console
 
-from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Quiet, takes_options
 from ...terminal.output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.worker_options import WorkerOptions
 from . import options as opt
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def sweep(
         typer.Option(help="Of laws without gains of their own: --match to the reference, or as `limb tune` found."),
     ] = GainsChoice.matched,
     limb: opt.NominalLimbWords,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Run laws at every point of a range: which is best where, and from where on each is unstable."""
     words.check()
@@ -104,7 +104,8 @@ def sweep(
         )
     )
     announce_compilation(quiet=words.quiet)
-    result = run_limb_sweep(bench, axes, opt.crew_of(words, "points"))
+    with words.keeping("points") as batch:
+        result = run_limb_sweep(bench, axes, opt.crew_of(words, batch))
     opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
     raise typer.Exit(0 if any(result.wins().values()) else 1)
 
@@ -215,7 +216,7 @@ def tune(
     ] = None,
     *,
     limb: opt.NominalLimbWords,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
     words.check()
@@ -231,7 +232,8 @@ def tune(
     chosen = limb.build_limb(plant)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
     announce_compilation(quiet=words.quiet)
-    result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, "searches"))
+    with words.keeping("searches") as batch:
+        result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, batch))
     if save is not None:
         save_recommended(result.recommended(), save)
     opt.tell_batch(result, words, lambda console: print_tuning(console, result), save)

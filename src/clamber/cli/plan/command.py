@@ -4,9 +4,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from ...terminal.crew import EndsLine, executor_of
 from ...terminal.options import TaskName, takes_options
 from ...terminal.output import announce_compilation, print_json, stderr, stdout
+from ...terminal.worker_options import EndsLine, executor_of
 from .options import PlanOptions
 
 if TYPE_CHECKING:
@@ -104,6 +104,6 @@ def islands_result(
     executor = executor_of(ray, workers)
     if ray is not None:
         executor.check()
-    line = EndsLine(stderr(), "islands", quiet=quiet)
     given = {name: options[name] for name in TAKEN}
-    return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)
+    with EndsLine(stderr(), "islands", quiet=quiet) as line:
+        return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)

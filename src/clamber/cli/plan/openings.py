@@ -9,7 +9,7 @@ from rich.console import Console
 
 from ...errors import SpecError, StartError
 from ...json_form import INLINE
-from ...planning.openings.find import Openings, Places, find_openings, shown
+from ...planning.infeasibility.find import InfeasibilityExplanation, Places, explain_infeasibility, shown
 from ...planning.problem.verdict import ToRun
 from ...planning.result import PlanResult
 from ...tasks import Task
@@ -23,7 +23,7 @@ class Planned:
     """A plan, or why there is none."""
 
     result: Annotated[PlanResult, INLINE]
-    openings: Openings | None
+    openings: InfeasibilityExplanation | None
     """What would open the task; None where there is a plan, or nothing was proved or looked for."""
     to_run: ToRun | None
     """None where there is no plan, or its robots have no contact dynamics."""
@@ -36,7 +36,7 @@ class NoStart:
     status: Literal["no start"] = "no start"
     task: str
     reason: str
-    openings: Openings
+    openings: InfeasibilityExplanation
     """What would allow it."""
 
 
@@ -70,17 +70,17 @@ class Seeker:
         if result.status == "infeasible" and (found := self._find()) is not None:
             print_openings(stdout(), found)
 
-    def _find(self) -> Openings | None:
+    def _find(self) -> InfeasibilityExplanation | None:
         if self._seconds is None:
             return None
         with ProgressLine(stderr(), quiet=self._quiet) as line:
-            return find_openings(self._task, seconds=self._seconds, threads=self._threads, progress=line.update)
+            return explain_infeasibility(self._task, seconds=self._seconds, threads=self._threads, progress=line.update)
 
 
 WHY = {"interrupted": "interrupted", "time": "out of time (--openings-seconds)"}
 
 
-def print_openings(console: Console, found: Openings) -> None:
+def print_openings(console: Console, found: InfeasibilityExplanation) -> None:
     """Print every kind of change that opens the task, the smallest of each, and what doesn't."""
     console.print()
     best = () if found.places is None else found.places.openings[:1]

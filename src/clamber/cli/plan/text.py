@@ -11,7 +11,7 @@ from ...planning.learning import Lesson
 from ...planning.problem.plan import Plan
 from ...planning.problem.problems import plan_family
 from ...planning.problem.verdict import ToRun
-from ...planning.progress import Moment, progress_text
+from ...planning.progress import ProgressEvent, progress_text
 from ...planning.result import Furthest, PlanResult
 from ...tasks import Task
 from ...terminal.live_line import LiveLine
@@ -21,7 +21,10 @@ from ...terminal.output import print_indented
 class ProgressLine(LiveLine):
     """Follows a search."""
 
-    def update(self, progress: Moment) -> None:
+    def __init__(self, console: Console, *, quiet: bool) -> None:
+        super().__init__(console, quiet=quiet, doing="preparing the search")
+
+    def update(self, progress: ProgressEvent) -> None:
         """Show one moment of the search."""
         self.show(progress_text(progress))
 

@@ -37,11 +37,11 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
     dynamics.check(task, asked)
     compile_ahead(*dynamics.compiled)
     cuts: list[None] = []
-    with LiveLine(stderr(), quiet=words.quiet) as line:
+    with LiveLine(stderr(), quiet=words.quiet, doing="preparing the search") as line:
         events = RunEvents(
             search=lambda moment: line.show(progress_text(moment)),
             cut=lambda: cuts.append(None),
-            step=lambda told, share: line.show(told),
+            step=line.show,
         )
         try:
             plan = dynamics.plan(task, asked, events)

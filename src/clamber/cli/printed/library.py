@@ -45,14 +45,25 @@ class Entry:
     title: str
 
 
-KINDS: Final[dict[str, Any]] = {kind: (modelled(list[Entry]), []) for kind in KINDS_LISTED}
+@dataclass(frozen=True, slots=True)
+class TaskEntry:
+    """A task's name, what it stands for, and the family of its robot."""
+
+    name: str
+    title: str
+    family: str
+
+
+KINDS: Final[dict[str, Any]] = {
+    kind: (modelled(list[TaskEntry] if kind == "tasks" else list[Entry]), []) for kind in KINDS_LISTED
+}
 LISTED: Final[Any] = create_model(
     "Listed", __config__=STRICT, __doc__="Names by kind; of one kind alone only that is there.", **KINDS
 )
 OURS: Final[dict[str, Any]] = {
     "list": LISTED,
     "plan": Planned | Front | NoStart,
-    "polish": PlanResult,
+    "shorten": PlanResult,
     "learn": Lesson,
     "inventory": SizedInventory,
     "check": CheckedPlan | Finding,

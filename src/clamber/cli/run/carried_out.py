@@ -4,6 +4,7 @@ from typing import Any
 
 import typer
 
+from ...interrupts import answer
 from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
@@ -33,7 +34,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
     find_planner(words.planner)
     peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
     noise = (*(words.noise or ()), *peg_error)
-    with LiveLine(stderr(), quiet=words.quiet) as line:
+    with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
         asked = RunRequest(
             planner=words.planner,
             plan_seconds=words.seconds,
@@ -56,7 +57,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             cut=lambda: cuts.append(None),
             planned=lambda plan: None if words.save_plan is None else plan.save(words.save_plan),
             note=lambda told: None if words.quiet else line.say(told),
-            step=lambda words, share: line.show(words),
+            step=line.show,
         )
         if work.plan is not None:
             events.planned(work.plan)
@@ -66,6 +67,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             line.say(str(none))
             raise typer.Exit(1) from None
         except KeyboardInterrupt:  # of a run that has begun, its report tells
+            answer()
             line.say("interrupted while it was planned; nothing has moved")
             raise typer.Exit(130) from None
         finally:

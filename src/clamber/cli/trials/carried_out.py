@@ -7,9 +7,9 @@ import typer
 from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
-from ...terminal.crew import CrewWords
 from ...terminal.live_line import LiveLine
 from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
+from ...terminal.worker_options import WorkerOptions
 from ...trials.dynamics import NoPlanError, RunEvents, TrialsRequest
 from ...trials.fault_trials import fault_rows
 from ...trials.trial_runs import Setup, Trials, run_trials, stored_result, wilson_interval
@@ -18,7 +18,7 @@ from ...viewing.trials_text import any_error, percent
 from .command import TrialsOptions
 
 
-def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
+def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
     """Carry it out with every seed; leaves with 1 where one failed, or fewer than asked for succeed for sure.
 
     With faults a run may fail: then it leaves with 1 only where one raised.
@@ -49,17 +49,20 @@ def try_out(work: Work, asked: TrialsOptions, words: CrewWords) -> None:
         words.executor.check()  # before a minute is spent on a plan
     announce_compilation(quiet=words.quiet)
     compile_ahead(*dynamics.compiled)
-    with LiveLine(stderr(), quiet=words.quiet) as line:
+    with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
         setup = _planned(work, request, words, line)
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))
+        line.show(f"0 of {asked.n} {dynamics.past}, the first ones are on their way", 0.0, now=True)
         trials = run_trials(
             setup,
             asked.seeds,
             executor=words.executor,
             store=words.store,
             resume=words.resume,
-            told=lambda trials: line.show(_so_far(trials, dynamics.past)),
+            told=lambda trials: line.show(
+                _so_far(trials, dynamics.past), len(trials.ended) / trials.asked, now=len(trials.ended) == 1
+            ),
         )
     if words.output is not None:
         dynamics.draw_trials(trials, words.output)
@@ -86,10 +89,12 @@ def _so_far(trials: Trials[Any, Any], past: str) -> str:
     return f"{n} of {trials.asked}: {trials.done} {past}, {percent(trials.done, n)}"
 
 
-def _planned(work: Work, request: TrialsRequest, words: CrewWords, line: LiveLine) -> Setup[Any, Any]:
+def _planned(work: Work, request: TrialsRequest, words: WorkerOptions, line: LiveLine) -> Setup[Any, Any]:
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     cuts: list[None] = []
-    events = RunEvents(search=lambda moment: line.show(progress_text(moment)), cut=lambda: cuts.append(None))
+    events = RunEvents(
+        search=lambda moment: line.show(progress_text(moment)), step=line.show, cut=lambda: cuts.append(None)
+    )
     try:
         return work.dynamics.trials(work.item, work.plan, request, events, words.store, work.label)
     except NoPlanError as none:
@@ -99,11 +104,11 @@ def _planned(work: Work, request: TrialsRequest, words: CrewWords, line: LiveLin
         tell_cuts(len(cuts))
 
 
-def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: CrewWords, line: LiveLine) -> int:
+def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: WorkerOptions, line: LiveLine) -> int:
     """One trial again; the exit code."""
     dynamics = work.dynamics
     kept = stored_result(setup, seed, words.store)
-    run, trial = setup.again(seed, kept, lambda words, share: line.show(words))
+    run, trial = setup.again(seed, kept, line.show)
     if words.output is not None:
         from ...viewing.pictures import draw_run
 

@@ -5,7 +5,6 @@ from typing import Annotated
 
 import typer
 
-from ...terminal.crew import CrewWords
 from ...terminal.name_completion import names_of
 from ...terminal.options import (
     PLAN_SECONDS,
@@ -18,6 +17,7 @@ from ...terminal.options import (
     Replan,
     takes_options,
 )
+from ...terminal.worker_options import WorkerOptions
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +106,7 @@ def trials(
     ],
     *,
     asked: TrialsOptions,
-    words: CrewWords,
+    words: WorkerOptions,
 ) -> None:
     """Climb many times under noise: how often it succeeds, why it fails, how long it takes, what matters.
 

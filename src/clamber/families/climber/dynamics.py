@@ -11,12 +11,12 @@ from ...json_form import INLINE
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
 from .execution.body_gains import too_weak
-from .execution.course import climbable, objections_to
+from .execution.executable_plan import climbable, objections_to
 from .planning.task import LimbedTask
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
+from .trials.plan_validation import validations
 from .trials.planning import no_plan, plan_to_climb, replanner
 from .trials.plants import check_plant, is_remote
-from .trials.rehearsal import Rehearsal, rehearse
 from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
 from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan
 from .trials.trial_summary import TrialSummary, sum_up
@@ -71,11 +71,7 @@ class ClimberDynamics(Dynamics):
             raise NoPlanError(asked.planner, task.name, f"can be carried out: {weak}")
         flaws = climbing_flaws(task, asked.plant)
 
-        def rehearsed(task: LimbedTask, plan: Plan) -> Rehearsal:
-            events.step(f"rehearsing a plan of {len(plan.actions)} actions in simulation", None)
-            return rehearse(task, plan, flaws)
-
-        plan = plan_to_climb(task, asked.planner, rehearse=rehearsed, **_search(asked, events))
+        plan = plan_to_climb(task, asked.planner, validate_plan=validations(flaws, events), **_search(asked, events))
         if plan is None:
             raise no_plan(asked.planner, task)
         return plan
@@ -172,9 +168,10 @@ class ClimberDynamics(Dynamics):
 
     def draw_trials(self, trials: ClimbTrials, file: Path) -> None:
         """Success over what was drawn."""
+        from ...shown_units import units_of
         from .pictures.charts import draw_trials
 
-        draw_trials(sum_up(trials), file)
+        draw_trials(sum_up(trials), file, units_of(trials.setup.task.document))
 
 
 def _refuse_weak(task: LimbedTask, asked: Conditions) -> None:

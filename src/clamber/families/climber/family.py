@@ -20,8 +20,8 @@ class Climber(Family):
     data = Path(__file__).parent / "data"
     commands = MappingProxyType(
         {
-            "rehearse": "clamber.families.climber.cli.rehearse:rehearse",
-            "press": "clamber.families.climber.cli.press:press",
+            "validate": "clamber.families.climber.cli.validate:validate",
+            "hold-force": "clamber.families.climber.cli.hold_force:hold_force",
         }
     )
     groups = MappingProxyType({"plant": "clamber.families.climber.cli.plant:plant"})

@@ -6,14 +6,14 @@ from .cli.plant import PlantAnswer, ServedPlant
 from .dynamics import ReplayedClimb, TrialedClimb
 from .execution.log_identify import Identification
 from .trials.body_bench import BodyContest, PushTrial
-from .trials.lessons import LearnedPlan
-from .trials.press import Pressed
+from .trials.hold_force import Pressed
+from .trials.plan_repair import LearnedPlan
 from .trials.run_plan import ClimbRun
 
 PRINTED: Final[dict[str, Any]] = {
-    "rehearse": LearnedPlan,
+    "validate": LearnedPlan,
     "run": ClimbRun,
-    "press": Pressed,
+    "hold-force": Pressed,
     "trials": TrialedClimb | ReplayedClimb,
     "plant serve": ServedPlant,
     "plant stop": PlantAnswer,

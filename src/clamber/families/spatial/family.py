@@ -19,11 +19,13 @@ class Spatial(Family):
     name = "spatial"
     title = "robot in space"
     data = Path(__file__).parent / "data"
+    starters = MappingProxyType({"world": "clamber.families.spatial.cli.new_world:world"})
     parts = MappingProxyType(
         {
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
             "relaxations": "clamber.families.spatial.planning.relaxations:spatial_relaxations",
+            "one_hold_more": "clamber.families.spatial.planning.one_hold_more:find_places",
             "pictures": "clamber.families.spatial.pictures.pictures:PICTURES",
             "scenes": "clamber.families.spatial.pictures.scenes:SCENES",
             "dynamics": "clamber.families.spatial.dynamics:DYNAMICS",
@@ -31,6 +33,8 @@ class Spatial(Family):
             "trajectories": "clamber.families.spatial.trajectories:TRAJECTORIES",
             "inspection": "clamber.families.spatial.inspection:INSPECTION",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",
+            "first_task": "clamber.families.spatial.planning.first_task:first_task",
+            "printed": "clamber.families.spatial.cli.new_world:PRINTED",
         }
     )
 

@@ -20,7 +20,10 @@ class Walker(Family):
     title = "two-frame walker"
     data = Path(__file__).parent / "data"
     commands = MappingProxyType(
-        {name: f"clamber.families.walker.cli.{name}:{name}" for name in ("follow", "most", "calibrate", "ditch")}
+        {
+            name.replace("_", "-"): f"clamber.families.walker.cli.{name}:{name}"
+            for name in ("follow", "max_setting", "calibrate", "ditch")
+        }
     )
     parts = MappingProxyType(
         {

@@ -7,14 +7,14 @@ from .dynamics import ReplayedWalk, TrialedWalk
 from .robot.calibration import Rivals
 from .robot.ditch_plan import Crossing
 from .trials.cooperative.follow import FollowRun
-from .trials.most import MostOfWalk
+from .trials.max_setting import MaxSetting
 from .trials.run_walk import WalkRun
 
 PRINTED: Final[dict[str, Any]] = {
     "run": WalkRun,
     "follow": FollowRun,
     "trials": TrialedWalk | ReplayedWalk,
-    "most": MostOfWalk,
+    "max-setting": MaxSetting,
     "calibrate": list[Rivals],
     "ditch": list[WidestDitch] | Crossing,
 }

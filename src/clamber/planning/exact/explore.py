@@ -8,6 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ...types import Ints
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
@@ -99,7 +100,7 @@ LEAST_ACTIONS: Final = Aim()
 
 
 @dataclass(frozen=True, slots=True)
-class Way:
+class CostedPlan:
     """A plan that an exact search found."""
 
     codes: Ints
@@ -120,7 +121,7 @@ class Exploration:
     interrupted: bool
     codes: Ints
     """The best plan known; without one, the way to the furthest stance."""
-    ways: tuple[Way, ...]
+    ways: tuple[CostedPlan, ...]
     """Plans found, the shortest first; one, unless a front was asked for."""
     stances: int
     """Different stances seen."""
@@ -130,7 +131,7 @@ class Exploration:
     dead: int
     """Stances from which the relaxed problem rules out every goal."""
     dominated: int
-    """Stances dropped because a freer one was reached at no more cost."""
+    """Stances dropped because a dominating one was reached at no more cost."""
     lower_bound: float
     """No plan has less of the first cost."""
     forbidden: dict[str, int]
@@ -163,7 +164,7 @@ def explore(
         seconds: Most time [s]; the first stances are expanded whatever it is, so that the bound at the start is known.
         tell: Called now and then with stances seen and the lower bound.
         aim: What is minimized.
-        dominance: Drop stances for freer ones (more goals met, fewer hangs used) reached at no more cost.
+        dominance: Drop stances for dominating ones (more goals met, fewer hangs used) reached at no more cost.
 
     Returns:
         The exploration; Ctrl-C, time and memory end it with a lower bound.
@@ -190,6 +191,7 @@ def explore(
             took = looked - before
             quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     ways = _ways(problem, memory)
     if ways:
@@ -238,13 +240,13 @@ def _reached(state: np.ndarray, search: np.void) -> int | float:
     return int(lowest) if search["informed"] else lowest
 
 
-def _ways(problem: CompiledProblem, memory: Memory) -> tuple[Way, ...]:
+def _ways(problem: CompiledProblem, memory: Memory) -> tuple[CostedPlan, ...]:
     """The plans found, the shortest first; of equals in the first cost the last found, which has less of the second."""
-    ways: list[Way] = []
+    ways: list[CostedPlan] = []
     label = int(memory.state["goal"][0])
     while label >= 0:
         made = memory.labels[label]
         if not ways or made["first"] < ways[-1].first:
-            ways.append(Way(memory.trace(problem, label), float(made["first"]), float(made["second"])))
+            ways.append(CostedPlan(memory.trace(problem, label), float(made["first"]), float(made["second"])))
         label = int(made["next"])
     return tuple(ways[::-1])

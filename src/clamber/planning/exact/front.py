@@ -14,7 +14,7 @@ from ..problem.plan import Plan
 from ..problem.problems import PlannedAction, listed_problem, plan_family, spent
 from ..progress import Clock, Exploring, Listener
 from .costs import COSTS, Aim, check_costs
-from .explore import Exploration, Way, inform
+from .explore import CostedPlan, Exploration, inform
 from .planner import MOST_STANCES, UNDER, Minimizer
 
 
@@ -80,7 +80,7 @@ def plan_front(
     Args:
         task: What to plan.
         costs: Two of "length" and the costs of the robot's family.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: As for `plan_exact`.
         max_stances: Memory; running out leaves the front incomplete, and says so.
         progress: Called now and then.
@@ -126,9 +126,9 @@ def plan_front(
     )
 
 
-def _by_falling_limit(searches: Minimizer, summed: str, peak: str) -> tuple[list[Way], bool, bool]:
+def _by_falling_limit(searches: Minimizer, summed: str, peak: str) -> tuple[list[CostedPlan], bool, bool]:
     """The front of a summed cost and a largest value: least of the first under a limit of the second that falls until no plan is left."""
-    ways: list[Way] = []
+    ways: list[CostedPlan] = []
     limit: float | None = None
     while True:
         seen: Exploration = searches.run(Aim(first=summed, second=peak, most_peak=limit))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ...compiled import inlined, kernel
-from ..problem.family_kernels import bound, candidates, done, freer, key, measure, reflect, restore, step
+from ..problem.family_kernels import bound, candidates, dominating, done, draft, key, measure, reflect, restore, step
 from ..problem.loops import LARGEST
 from ..stance_table import slot_of
 from .records import EQUAL, EXHAUSTED, FOUND, FULL, NEAREST, NONE, RUNNING, SHORTEST
@@ -117,11 +117,11 @@ def grown(p, column, cost, row):
 
 @inlined
 def passed_over(p, search, s, costs, seen, words, freed):
-    """Whether a freer stance was reached at no more cost: whatever can be done from here can be done from there."""
+    """Whether a dominating stance was reached at no more cost: whatever can be done from here can be done from there."""
     nodes, keys, table = seen.nodes, seen.keys, seen.table
     first, second = costs
     which = 0
-    while freer(p, s, which, freed):
+    while dominating(p, s, which, freed):
         key(p, freed, words)
         other = table[slot_of(words, table, keys)]
         if other >= 0:
@@ -225,11 +225,15 @@ def explore_some(p, search, state, seen, room, tally, quota):
             continue
         state.expanded += 1
         for c in range(candidates(p, stances[0], codes)):
-            state.checks += 1
-            reason = step(p, stances[0], codes[c], stances[1], margins)
-            if reason >= 0:
-                tally[reason] += 1
+            late = draft(p, stances[0], codes[c], stances[1]) if simple and search.capped < 0 else 0
+            if late < 0:
                 continue
+            if late == 0:
+                state.checks += 1
+                reason = step(p, stances[0], codes[c], stances[1], margins)
+                if reason >= 0:
+                    tally[reason] += 1
+                    continue
             measure(p, stances[1], row)
             if search.capped >= 0 and row[search.capped] > search.cap:
                 continue
@@ -258,6 +262,12 @@ def explore_some(p, search, state, seen, room, tally, quota):
             if search.dominance and passed_over(p, search, stances[kept], costs, seen, words[1], stances[3]):
                 state.dominated += 1
                 continue
+            if late > 0:
+                state.checks += 1
+                reason = step(p, stances[0], codes[c], stances[1], margins)
+                if reason >= 0:
+                    tally[reason] += 1
+                    continue
             if child < 0:
                 child = state.nodes
                 state.nodes += 1

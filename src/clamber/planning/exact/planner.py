@@ -117,7 +117,7 @@ def plan_exact(
     Args:
         task: What to plan.
         seed: Only written down: nothing here is drawn at random.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The search itself runs on one; replays take as many as given.
         max_stances: Memory: most stances kept. Running out is a result ("bounded").
         minimize: Costs in lexicographic order: "length" and the costs of the robot's family.

@@ -41,7 +41,7 @@ STATE = np.dtype(
         ("checks", "i8"),
         ("goal", "i8"),  # best goal label; in a front the last one, `next` leads to those before
         ("dead", "i8"),  # stances from which the bound rules out every goal
-        ("dominated", "i8"),  # stances dropped for a freer one at no more cost
+        ("dominated", "i8"),  # stances dropped for a dominating one at no more cost
         ("goal_first", "f8"),
         ("goal_second", "f8"),
     ],
@@ -54,7 +54,7 @@ SEARCH = np.dtype(
         ("capped", "i4"),  # feature that no action may have more of than `cap`; -1: none
         ("front", "i4"),  # keep every way that is better in either cost
         ("informed", "i4"),  # the first cost is the number of actions: the family's bound counts
-        ("dominance", "i4"),  # drop stances for freer ones
+        ("dominance", "i4"),  # drop stances for dominating ones
         ("order", "i4"),  # within a bucket: NEWEST, SHORTEST or NEAREST first
         ("cap", "f8"),
         ("width", "f8"),  # of a bucket, in the first cost

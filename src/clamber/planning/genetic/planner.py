@@ -8,6 +8,7 @@ from typing import Final
 
 import numpy as np
 
+from ...interrupts import answer
 from ...tasks import Task
 from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
@@ -44,7 +45,7 @@ class Budget:
     evaluations: int
     """Most plans to evaluate, polishing included; the first generation is always evaluated."""
     seconds: float | None = None
-    """Most wall-clock time [s]; a search that it ends is not repeatable."""
+    """Most time [s]; a search that it ends is not repeatable."""
     checks: int | None = None
     """Most single actions to judge; a generation that has begun is finished."""
 
@@ -138,6 +139,7 @@ def search(
             watch()
         _polish(problem, profile, run, seed, lambda: budget.allows(run.state, BATCH, clock), watch)
     except KeyboardInterrupt:
+        answer()
         interrupted = True
     _note_success(run)
     keeper.save(run, now=True)
@@ -241,7 +243,7 @@ def plan_genetic(
         profile: Name or file of a profile, or a profile.
         max_evaluations: Most plans to evaluate, polishing included.
         max_checks: Most single actions to judge, polishing included; a generation that has begun is finished.
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: Threads; None for one a core.
         filters: Whether the inventory's filters are applied.
         macros: Learned modules to add to the inventory.

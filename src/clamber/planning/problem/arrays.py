@@ -105,7 +105,7 @@ class ActionTable:
 
 
 @dataclass(frozen=True, slots=True)
-class WayFields:
+class CostToGoMap:
     """Steps of the body that are left, at least roughly, over a grid of places."""
 
     frame: Floats
@@ -128,7 +128,7 @@ class Children:
 
 
 @dataclass(frozen=True, slots=True)
-class Sprouts:
+class ScoredChildren:
     """Every valid child of a batch of stances, in slots by parent: the first `count` of each row are filled."""
 
     count: npt.NDArray[np.int32]

@@ -16,19 +16,20 @@ from ...kernel_cache import made_outside
 
 SCALARS = (
     "step",
+    "draft",
     "candidates",
     "key",
     "restore",
     "measure",
     "bound",
-    "toward",
-    "freer",
+    "heuristic_between",
+    "dominating",
     "reflect",
     "done",
     "cell",
-    "spot",
-    "aims",
-    "burden",
+    "body_pose",
+    "satisfies_goal",
+    "stance_cost",
 )
 FAMILIES: dict[types.Type, dict[str, Callable[..., Any]]] = {}
 
@@ -49,11 +50,16 @@ def _no_burden(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
     pass
 
 
+def _no_draft(p, before, code, after):  # type: ignore[no-untyped-def]
+    return 0
+
+
 PLAIN: Final[dict[str, Callable[..., Any]]] = {
-    "freer": _no_other,
+    "dominating": _no_other,
     "reflect": _no_mirror,
-    "toward": _no_bound,
-    "burden": _no_burden,
+    "heuristic_between": _no_bound,
+    "stance_cost": _no_burden,
+    "draft": _no_draft,
 }
 """Kernels that a family may do without: nothing is known that would make searches shorter, and being somewhere costs nothing."""
 
@@ -74,6 +80,14 @@ def _chosen(name: str, params: types.Type) -> Callable[..., Any]:
 
 def step(p, before, code, after, margins):  # type: ignore[no-untyped-def]
     """Carry out one action: writes `after` and `margins`, returns the first violated hard check, or -1."""
+    raise TypeError("called from kernels only")
+
+
+def draft(p, before, code, after):  # type: ignore[no-untyped-def]
+    """Write what an action leads to, but for what only judging tells: 1 if it is written, -1 if there is no such action, 0 if `step` must.
+
+    Key, cell, bound and goals of what is written are those of the stance that `step` would write; so are the `foreseen` features.
+    """
     raise TypeError("called from kernels only")
 
 
@@ -102,7 +116,7 @@ def bound(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
-def freer(p, s, which, t):  # type: ignore[no-untyped-def]
+def dominating(p, s, which, t):  # type: ignore[no-untyped-def]
     """Write the stance number `which` that can do all that a stance can, and maybe more; False if there is none of that number."""
     raise TypeError("called from kernels only")
 
@@ -122,37 +136,38 @@ def cell(p, s):  # type: ignore[no-untyped-def]
     raise TypeError("called from kernels only")
 
 
-def toward(p, s, t):  # type: ignore[no-untyped-def]
+def heuristic_between(p, s, t):  # type: ignore[no-untyped-def]
     """An admissible, consistent number of actions from the stance `s` to the key of the stance `t`."""
     raise TypeError("called from kernels only")
 
 
-def spot(p, s, words):  # type: ignore[no-untyped-def]
+def body_pose(p, s, words):  # type: ignore[no-untyped-def]
     """Write where a stance is: x, y, angle of the body in ticks, then the hold of each limb, -1 where it is free."""
     raise TypeError("called from kernels only")
 
 
-def aims(p, s, k):  # type: ignore[no-untyped-def]
+def satisfies_goal(p, s, k):  # type: ignore[no-untyped-def]
     """Whether a stance is where goal k asks for, whatever came before."""
     raise TypeError("called from kernels only")
 
 
-def burden(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
-    """Write what it costs to be in a judged stance: the problem's `burdens`; the rest is scratch."""
+def stance_cost(p, s, spare, margins, row):  # type: ignore[no-untyped-def]
+    """Write what it costs to be in a judged stance: the problem's `stance_costs`; the rest is scratch."""
     raise TypeError("called from kernels only")
 
 
 overload(step)(lambda p, before, code, after, margins: _chosen("step", p))
+overload(draft)(lambda p, before, code, after: _chosen("draft", p))
 overload(candidates)(lambda p, s, codes: _chosen("candidates", p))
 overload(key)(lambda p, s, words: _chosen("key", p))
 overload(restore)(lambda p, words, s: _chosen("restore", p))
 overload(measure)(lambda p, s, row: _chosen("measure", p))
 overload(bound)(lambda p, s: _chosen("bound", p))
-overload(freer)(lambda p, s, which, t: _chosen("freer", p))
+overload(dominating)(lambda p, s, which, t: _chosen("dominating", p))
 overload(reflect)(lambda p, s, t: _chosen("reflect", p))
 overload(done)(lambda p, s: _chosen("done", p))
 overload(cell)(lambda p, s: _chosen("cell", p))
-overload(spot)(lambda p, s, words: _chosen("spot", p))
-overload(aims)(lambda p, s, k: _chosen("aims", p))
-overload(burden)(lambda p, s, spare, margins, row: _chosen("burden", p))
-overload(toward)(lambda p, s, t: _chosen("toward", p))
+overload(body_pose)(lambda p, s, words: _chosen("body_pose", p))
+overload(satisfies_goal)(lambda p, s, k: _chosen("satisfies_goal", p))
+overload(stance_cost)(lambda p, s, spare, margins, row: _chosen("stance_cost", p))
+overload(heuristic_between)(lambda p, s, t: _chosen("heuristic_between", p))

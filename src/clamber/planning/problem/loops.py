@@ -1,7 +1,7 @@
 """The loops over a family's `step`, written once for all families: rollout of many plans, replay of one, expansion of many stances."""
 
 from ...compiled import kernel
-from .family_kernels import bound, candidates, cell, done, key, measure, step
+from .family_kernels import bound, candidates, cell, done, draft, key, measure, step
 
 SUM, LARGEST = 1, 2
 
@@ -140,13 +140,16 @@ def expand(p, parents, first, end, codes, margins, children, parent_of, code_of)
 
 
 @kernel
-def sprout(p, parents, first, end, weights, toll, margins, row, child, codes, count, code, score, niche, met, keys):
+def expand_scored(
+    p, parents, first, end, drafts, weights, toll, margins, row, child, codes, count, code, score, niche, met, keys
+):
     """Every valid child of the stances `first` to `end`, each in a slot of its parent's own, so that threads never meet.
 
     Args:
         p: A family's parameters.
         parents: Stances.
         first, end: Which of them.
+        drafts: Whether children are drafted alone: they may not be valid.
         weights: Weights of the features in a child's score.
         toll: What the score loses per action that `bound` says is left.
         margins, row, child, codes: Scratch: checks, features, one stance, candidates.
@@ -157,7 +160,10 @@ def sprout(p, parents, first, end, weights, toll, margins, row, child, codes, co
     for i in range(first, end):
         n = 0
         for c in range(candidates(p, parents[i], codes)):
-            if step(p, parents[i], codes[c], child[0], margins) >= 0:
+            if drafts:
+                if draft(p, parents[i], codes[c], child[0]) < 0:
+                    continue
+            elif step(p, parents[i], codes[c], child[0], margins) >= 0:
                 continue
             measure(p, child[0], row)
             value = -toll * bound(p, child[0])
@@ -170,13 +176,6 @@ def sprout(p, parents, first, end, weights, toll, margins, row, child, codes, co
             key(p, child[0], keys[i, n])
             n += 1
         count[i] = n
-
-
-@kernel
-def follow(p, parents, parent_of, codes, first, end, margins, children):
-    """Carry out one valid action from each of many stances."""
-    for i in range(first, end):
-        step(p, parents[parent_of[i]], codes[i], children[i], margins)
 
 
 @kernel

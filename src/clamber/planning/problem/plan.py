@@ -10,6 +10,7 @@ from pydantic import Field, StrictStr
 
 from ...errors import FileError, SpecError
 from ...files import Document, check_schema, parse_json, read_text, write_atomically
+from ...notebook import Pictured
 from ...specs import build_spec, spec
 from ...tasks import Task, task_from_document
 from ...types import Ints, Json
@@ -21,7 +22,7 @@ SCHEMA: Final = "clamber-plan-1"
 
 
 @spec
-class Plan:
+class Plan(Pictured):
     """A sequence of actions for a task; it replays in the same way whoever made it."""
 
     task: StrictStr
@@ -36,8 +37,9 @@ class Plan:
     planner: StrictStr = ""
     """Who made it, such as "genetic/default" or a table of a paper."""
 
-    def __repr__(self) -> str:
-        return f"<Plan of {len(self.actions)} actions for {self.task!r}{f' by {self.planner}' if self.planner else ''}>"
+    def told(self) -> str:
+        """How long, for what, by whom."""
+        return f"of {len(self.actions)} actions for {self.task!r}{f' by {self.planner}' if self.planner else ''}"
 
     @classmethod
     def of_codes(

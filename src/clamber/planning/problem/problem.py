@@ -12,9 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import SpecError
-from .arrays import ActionTable, Children, Params, Sprouts, WayFields
+from ...types import Floats
+from .arrays import ActionTable, Children, CostToGoMap, Params, ScoredChildren
 from .code_limits import CodeLimits, indices
-from .loops import expand, features_of, follow, possible, replay, rollout, sprout
+from .loops import expand, expand_scored, features_of, possible, replay, rollout
 
 MAX_FEATURES = 8
 PIECES = 8
@@ -44,13 +45,31 @@ class Replay:
     """A plan carried out: stances (n + 1), margins (n, n_checks), reasons (n; -1 where the action holds)."""
 
     stances: Records
-    margins: npt.NDArray[np.float64]
+    margins: Floats
     reasons: npt.NDArray[np.int32]
 
     @property
     def ok(self) -> bool:
         """Whether every action holds."""
         return bool(np.all(self.reasons < 0))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Beam:
+    """The settings of a beam search; lengths in actions."""
+
+    width: int = 500
+    """Stances kept of each layer."""
+    niche: int = 20
+    """Most of one niche in a layer: same goals met, same contacts, nearby."""
+    longest: int = 400
+    """Layers, so actions of a plan."""
+    toll: float = 0.0
+    """What a stance's score loses per action that the family's bound says is left."""
+    weights: tuple[tuple[str, float], ...] = (("body", 1.0), ("limbs", 0.1), ("stages", 0.5))
+    """Feature -> weight in the score."""
+    polish: int = 60_000
+    """Most stances that windows about the plan may see afterwards."""
 
 
 class Problem(Protocol):
@@ -65,7 +84,7 @@ class Problem(Protocol):
     """Names of the features that weights apply to."""
 
     def rollout(
-        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: Floats, limit: int
     ) -> Records:
         """Carry out many plans; records of `ROLLOUT`."""
         ...
@@ -86,14 +105,16 @@ class Problem(Protocol):
 class CompiledProblem:
     """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
 
-    The answer does not depend on the number of threads: every plan is carried out alone.
-
-    Kernels take codes, entries of the table and indices of stances as they are, and one that does not exist would make them read
-    and write memory that is not theirs. So whatever is handed in is looked at here first, whoever it comes from.
+    The answer does not depend on the number of threads: every plan is carried out alone. Kernels take codes and indices as they are, and
+    one that does not exist would make them use memory that is not theirs; so whatever is handed in is looked at here first.
     """
 
-    burdens: ClassVar[tuple[str, ...]] = ()
-    """Names of what the family's kernel `burden` writes, each with its unit at the end."""
+    stance_costs: ClassVar[tuple[str, ...]] = ()
+    """Names of what the family's kernel `stance_cost` writes, each with its unit at the end."""
+    foreseen: ClassVar[tuple[str, ...]] = ()
+    """Features that the family's kernel `draft` tells of an action before it is judged; none where it has no such kernel."""
+    beam: ClassVar[Beam] = Beam()
+    """What suits the family's robots, unless told otherwise."""
 
     def __init__(
         self,
@@ -119,14 +140,14 @@ class CompiledProblem:
         """The codes, and the indices in stances, that there are here."""
         raise NotImplementedError
 
-    def _make_scratch(self) -> tuple[Any, Records, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+    def _make_scratch(self) -> tuple[Any, Records, Floats, Floats]:
         params = self.params.for_thread()
         self._kept.append(params)
         stances = np.zeros(3, self.start.dtype)
         return params.record, stances, np.zeros(len(self.checks)), np.zeros((2, len(self.features)))
 
     def rollout(
-        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: npt.NDArray[np.float64], limit: int
+        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: Floats, limit: int
     ) -> Records:
         """Carry out many plans, each up to its goal or its first failure.
 
@@ -156,7 +177,7 @@ class CompiledProblem:
         self._spread(len(genes), part)
         return out
 
-    def _weights(self, weights: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def _weights(self, weights: Floats) -> Floats:
         taken = np.ascontiguousarray(weights, np.float64)
         if taken.shape != (len(self.features),):
             allowed = f"must be one number for each of {', '.join(self.features)}"
@@ -211,22 +232,19 @@ class CompiledProblem:
         while first < len(stances):
             room = max(4 * most, 16 * (len(stances) - first))
             children = np.zeros(room, self.start.dtype)
-            parent = np.zeros(room, np.int32)
-            code = np.zeros(room, np.int32)
+            parent, code = np.zeros(room, np.int32), np.zeros(room, np.int32)
             n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
             parts.append(Children(parent[:n], code[:n], children[:n]))
-        if len(parts) == 1:
-            return parts[0]
         return Children(
             np.concatenate([part.parent for part in parts]),
             np.concatenate([part.code for part in parts]),
             np.concatenate([part.stance for part in parts]),
         )
 
-    def sprouts(self, n: int) -> Sprouts:
+    def scored_children(self, n: int) -> ScoredChildren:
         """Memory for the children of up to n stances."""
         slots = self.branching
-        return Sprouts(
+        return ScoredChildren(
             np.zeros(n, np.int32),
             np.zeros((n, slots), np.int32),
             np.zeros((n, slots)),
@@ -235,8 +253,14 @@ class CompiledProblem:
             np.zeros((n, slots, self.key_words), np.int64),
         )
 
-    def sprout(self, stances: Records, weights: npt.NDArray[np.float64], toll: float, out: Sprouts) -> None:
+    def drafts(self, weights: Floats) -> bool:
+        """Whether children can be scored by these weights of the features before they are judged."""
+        return all(name in self.foreseen for name, weight in zip(self.features, weights, strict=True) if weight)
+
+    def expand_scored(self, stances: Records, weights: Floats, toll: float, out: ScoredChildren) -> None:
         """Write every valid child of every stance, scored: weights times features, less `toll` times the bound on what is left.
+
+        Where the score can be told before an action is judged (`drafts`), children are not judged, and may not be valid.
 
         Raises:
             SpecError: If a stance names a limb, hold or goal that does not exist, or a weight is missing.
@@ -248,32 +272,12 @@ class CompiledProblem:
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
-            sprout(
-                params, stances, first, end, weights, toll, margins, row[0], child, codes,
+            expand_scored(
+                params, stances, first, end, self.drafts(weights), weights, toll, margins, row[0], child, codes,
                 out.count, out.code, out.score, out.cell, out.done, out.keys,
             )  # fmt: skip
 
         self._spread(len(stances), part)
-
-    def follow(self, stances: Records, parent: npt.NDArray[np.int32], code: npt.NDArray[np.int32]) -> Records:
-        """The stances that valid actions lead to, one for each index of a parent and code.
-
-        Raises:
-            SpecError: If a code is no action, or a parent no stance of these.
-        """
-        self.limits.stances(stances, self.start.dtype)
-        code = self.limits.codes(code)
-        parent = indices(parent, len(stances), "parent", self.limits.label)
-        if len(parent) != len(code):
-            raise SpecError(self.limits.label, "parent", len(parent), f"must be one for each of {len(code)} codes")
-        children = np.zeros(len(parent), self.start.dtype)
-
-        def part(worker: int, first: int, end: int) -> None:
-            params, _, margins, _ = self._scratch[worker]
-            follow(params, stances, parent, code, first, end, margins, children)
-
-        self._spread(len(parent), part)
-        return children
 
     def possible(self, genes: npt.NDArray[np.int32]) -> npt.NDArray[np.uint8]:
         """Which table entries hold after a plan that holds (the configuration filter), one byte per entry."""
@@ -302,7 +306,7 @@ class CompiledProblem:
         return other
 
     def without_more_hangs(self, stance: Records) -> Self:
-        """The same problem without the actions that `toward` can't bound, for ways that start at `stance`; most families have none."""
+        """The same problem without the actions that `heuristic_between` can't bound from `stance` on; most families have none."""
         return self
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
@@ -313,7 +317,7 @@ class CompiledProblem:
         """Codes that say what to do from where the robot is, rather than name places; `stances` are those of the plan's replay."""
         return codes
 
-    def measured(self, stances: Records) -> npt.NDArray[np.float64]:
+    def measured(self, stances: Records) -> Floats:
         """Features of stances as actions led to them, shape (n, n_features)."""
         self.limits.stances(stances, self.start.dtype)
         rows = np.zeros((len(stances), len(self.features)))
@@ -346,7 +350,7 @@ class CompiledProblem:
         """Why `expand` and exact search can't list all that the task allows, or None: they can."""
         return None
 
-    def ways(self) -> WayFields | None:
+    def ways(self) -> CostToGoMap | None:
         """About how far it is from every place of the world to each goal; None: the family has no such map."""
         return None
 
@@ -384,13 +388,13 @@ class CompiledProblem:
         """Whether a stance (array of one record) has met every goal."""
         raise NotImplementedError
 
-    def wander(self) -> tuple[Params, Records]:
+    def without_goals(self) -> tuple[Params, Records]:
         """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""
         start = self.start.copy()
         start["stage"] = self.goals
         return self.params.for_thread(), start
 
     @property
-    def spot_words(self) -> int:
-        """Integers that the family's kernel `spot` writes."""
+    def pose_words(self) -> int:
+        """Integers that the family's kernel `body_pose` writes: the body's pose, and a hold for each limb."""
         return 3

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
-from pydantic import AfterValidator, Field, StrictStr
+from pydantic import Field, StrictStr
 
 from ...errors import PlannerError
 from ...family import family_of
@@ -16,21 +16,12 @@ from ...shown_units import SI, ShownUnits, units_of
 from ...specs import spec
 from ...tasks import Task
 from ...types import Ints
-from .check import Check
+from .body_pose import PLANE, PoseAxis, PoseLattice, axis_names, plane_lattice
+from .check import TICKS, Check
 from .code_limits import CodeLimits
 from .problem import CompiledProblem, Records
 
 Finite = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-
-
-POSE_AXES: Final = {3: ("x", "y", "theta"), 6: ("along", "across", "height", "yaw", "pitch", "roll")}
-"""Number of a body pose's coordinates -> their names."""
-
-
-def _pose(delta: tuple[float, ...]) -> tuple[float, ...]:
-    if len(delta) not in POSE_AXES:
-        raise ValueError("must be 3 numbers, x, y and angle, or 6, along, across, height, yaw, pitch, roll")
-    return delta
 
 
 @spec
@@ -42,7 +33,7 @@ class PlannedAction(Jsonable):
     """Name of the limb or frame; None where the action has none."""
     hold: Annotated[int, Field(strict=True, ge=1)] | None = None
     """Number of the hold that a grab takes; None for a grab that found no hold."""
-    delta: Annotated[tuple[Finite, ...], AfterValidator(_pose)] | None = None
+    delta: Annotated[tuple[Finite, ...], Field(min_length=1)] | None = None
     """A move's change of the body's pose: x, y [m], angle [rad] in a plane; along, across, height [m], yaw, pitch, roll [rad] in space."""
     code: Annotated[int, Field(strict=True, ge=0)] | None = None
     """The thesis's number (0, 1..6, N00, NXX) with the hold that was taken; None where it has no number for this."""
@@ -55,7 +46,7 @@ class PlannedAction(Jsonable):
         if self.kind == "none":
             return "none"
         if self.kind == "move" and self.delta is not None:
-            axes = zip(POSE_AXES[len(self.delta)], self.delta, strict=True)
+            axes = zip(axis_names(len(self.delta)), self.delta, strict=True)
             way = " ".join(f"{'+' if part > 0 else '-'}{axis}" for axis, part in axes if part)
             return f"{self.limb} {way}" if self.limb else way
         if self.kind == "grab":
@@ -162,7 +153,7 @@ class PlanFamily(ABC):
 
     checks: ClassVar[tuple[Check, ...]]
     """In the order of a replay's margins."""
-    burdens: ClassVar[tuple[str, ...]] = ()
+    stance_costs: ClassVar[tuple[str, ...]] = ()
     """What can be told of being in a stance, each with its unit at the end."""
 
     @abstractmethod
@@ -204,9 +195,16 @@ class PlanFamily(ABC):
     def module(self, task: Any, code: int) -> str:
         """Name of a packed code as a module of the inventory."""
 
+    pose_axes: ClassVar[tuple[PoseAxis, ...]] = PLANE
+    """Coordinates of a body's pose, in the order of `pose`, of the kernel `body_pose` and of a move's `delta`."""
+
     @abstractmethod
-    def pose(self, stance: np.void) -> tuple[float, float, float]:
-        """Place [m] and angle [rad] of the body, world frame."""
+    def pose(self, task: Any, stance: np.void) -> tuple[float, ...]:
+        """The body's pose, a number [m] or [rad] for each of `pose_axes`."""
+
+    def lattice(self, task: Any, problem: CompiledProblem) -> PoseLattice:
+        """The lattice of the body's poses that moves lead to."""
+        return plane_lattice(task, int(problem.params.record["turn_ticks"]) // TICKS)
 
     def holds(self, task: Any, stance: np.void) -> dict[str, int]:
         """Limb name -> number of its hold, 0 if it is free; empty where nothing is held."""
@@ -308,7 +306,7 @@ NOTHING_LIMITS: Final = 1e8
 
 
 @dataclass(frozen=True, slots=True)
-class Yardsticks:
+class Normalisation:
     """What a task's margins are measured against."""
 
     checks: tuple[Check, ...]
@@ -321,7 +319,7 @@ class Yardsticks:
     """In which margins are shown."""
 
 
-def yardsticks_of(task: Task) -> Yardsticks:
+def normalisation_of(task: Task) -> Normalisation:
     """The yardsticks of a task."""
     plans = family_of(task).plans
-    return Yardsticks(plans.checks, plans.hard(task), plans.sizes(task), units_of(task.document))
+    return Normalisation(plans.checks, plans.hard(task), plans.sizes(task), units_of(task.document))

@@ -13,6 +13,7 @@ from ...shown_units import SI, ShownUnits, units_of
 from ...tasks import Task
 from ...types import Ints
 from ...units import DEGREE, INCH, OZ_IN
+from .body_pose import PoseAxis, named_pose, on_map
 from .check import TOLERANCE, UNLIMITED, Check
 from .plan import Plan
 from .problem import Replay
@@ -46,8 +47,8 @@ class StepVerdict(Jsonable):
     """Violated checks that only report."""
     margins: dict[str, float | None]
     """Check -> signed margin in its own unit (SI); None where nothing limits it or it could not be had."""
-    pose: Annotated[tuple[float, float, float], HIDDEN]
-    """Body afterwards, world frame [m, m, rad]."""
+    pose: Annotated[tuple[float, ...], HIDDEN]
+    """Body afterwards, a number [m] or [rad] for each of the family's `pose_axes`."""
     holds: Annotated[dict[str, int], HIDDEN]
     """Limb -> hold afterwards, 0 if free."""
 
@@ -136,7 +137,10 @@ class PlanEnd:
     x_in: float
     y_in: float
     theta_deg: float
+    """First angle of the body's pose."""
     holds: dict[str, int]
+    pose: dict[str, float]
+    """Each coordinate of the body's pose, in the unit at the end of its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,8 +174,9 @@ class Verdict(Jsonable):
     """Largest electrical power that holding a stance takes."""
     energy: Annotated[float, Key("energy_J")]
     """Electrical energy of the actions that hold: power of each stance times the time of an action."""
-    pose: Annotated[tuple[float, float, float], HIDDEN]
-    """Body at the end, world frame [m, m, rad]; before the violating action where the replay stopped there."""
+    pose: Annotated[tuple[float, ...], HIDDEN]
+    """Body at the end, as `pose_axes` have it [m] or [rad]; before the violating action where the replay stopped there."""
+    pose_axes: Annotated[tuple[PoseAxis, ...], HIDDEN]
     holds: Annotated[dict[str, int], HIDDEN]
     """Limb -> hold at the end, 0 if free."""
     checks: Annotated[tuple[Check, ...], HIDDEN]
@@ -235,8 +240,8 @@ class Verdict(Jsonable):
     @in_json(after="energy_J")
     def final(self) -> PlanEnd:
         """Where the plan ends."""
-        x, y, theta = self.pose
-        return PlanEnd(x / INCH, y / INCH, theta / DEGREE, self.holds)
+        x, y, theta = on_map(self.pose_axes, self.pose)
+        return PlanEnd(x / INCH, y / INCH, theta / DEGREE, self.holds, named_pose(self.pose_axes, self.pose))
 
     @in_json(after="warnings")
     def nearest_rule(self) -> NearestRule | None:
@@ -314,7 +319,8 @@ def check_plan(
         max_torque=max((row.max_torque for row in held if row.max_torque is not None), default=0.0),
         max_power=max(powers, default=0.0),
         energy=family.duration(task) * sum(powers),
-        pose=family.pose(last),
+        pose=family.pose(task, last),
+        pose_axes=family.pose_axes,
         holds=family.holds(task, last),
         checks=(*family.checks, *theirs.checks),
         hard=hard,
@@ -360,7 +366,7 @@ def _judge(
         reported=tuple(
             name for name, margin in zip(names, row, strict=True) if margin < -TOLERANCE and name not in hard
         ),
-        pose=family.pose(after),
+        pose=family.pose(task, after),
         holds=family.holds(task, after),
     )
 

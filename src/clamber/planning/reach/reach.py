@@ -10,10 +10,12 @@ from ...errors import ClamberError, UnknownNameError, describe_choices
 from ...family import family_of
 from ...files import write_atomically
 from ...json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ...notebook import Pictured
 from ...tasks import Task
-from ..problem.problems import listed_problem, plan_family, without_hangs, yardsticks_of
+from ..problem.body_pose import PoseLattice
+from ..problem.problems import listed_problem, normalisation_of, plan_family, without_hangs
 from ..progress import Clock
-from .flood import Flood, flood
+from .exploration import Exploration, explore_breadth_first
 from .table import Rim, Table, place_table, pose_table, rim_of
 
 
@@ -36,7 +38,7 @@ class Layer:
     """One thing that a map can show of every place."""
 
     column: str
-    """Of the map's table; "least_" or "most_" and a burden of the family, or one that every map has."""
+    """Of the map's table; "least_" or "most_" and a cost of the family's stances, or one that every map has."""
     title: str
     """What the number is, for a reader of the picture."""
     good: bool
@@ -57,9 +59,11 @@ COMMON: Final = ("margin", "first_step")
 
 def layers_of(task: Task) -> tuple[str, ...]:
     """Names of the layers that a task's map has; the first is shown unless another is asked for."""
-    burdens = family_of(task).plans.burdens
+    stance_costs = family_of(task).plans.stance_costs
     return tuple(
-        name for name, layer in LAYERS.items() if layer.column in COMMON or layer.column.partition("_")[2] in burdens
+        name
+        for name, layer in LAYERS.items()
+        if layer.column in COMMON or layer.column.partition("_")[2] in stance_costs
     )
 
 
@@ -118,8 +122,8 @@ class GoalReach(Jsonable):
     """Actions of the shortest way there; None: nobody gets there."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Reach(Jsonable):
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Reach(Jsonable, Pictured):
     """The reachable space of a task, as far as it was seen."""
 
     status: Status
@@ -147,9 +151,16 @@ class Reach(Jsonable):
     closed_by: dict[str, int]
     """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
     places: Table
-    """Column to its values, a place of the body each: `x_m`, `y_m`, `stances`, `first_step` and so on; "inf" where nothing limits."""
+    """Column to its values, a place of the body each: its two axes, such as `x_m`, `y_m`, then `stances`, `first_step` and so on;
+    "inf" where nothing limits."""
     rim: Annotated[Rim, HIDDEN]
     """Places that could be tried and were not reached; while incomplete, not reached so far."""
+    lattice: Annotated[PoseLattice, HIDDEN]
+    """Of the body's poses; places are those of its first two axes."""
+
+    def told(self) -> str:
+        """What was seen of which task."""
+        return f"{self.status} for {self.task.name!r}: {self.reason}"
 
     @property
     @in_json(after="holds")
@@ -188,7 +199,7 @@ def find_reach(
         hangs: Whether hangs count as the task's rules have them. They take the body off the lattice of steps, so that with any number
             of them the space has no end; without this they are left out.
         max_stances: Memory: most stances kept. Running out is a result ("incomplete").
-        seconds: Most wall-clock time [s].
+        seconds: Most time [s].
         threads: The answer doesn't depend on them; None for one a core.
         progress: Called now and then with stances, poses tried and actions from the start.
 
@@ -203,18 +214,19 @@ def find_reach(
     posed = task if hangs else without_hangs(task)
     problem = listed_problem(posed, "reach", threads=1)
     holds: tuple[Any, ...] = getattr(task.world, "holds", ())
-    seen = flood(
+    lattice = plan_family(posed).lattice(posed, problem)
+    seen = explore_breadth_first(
         problem,
-        yardsticks_of(posed),
+        normalisation_of(posed),
+        lattice,
         holds=len(holds),
         most_stances=max_stances,
         seconds=seconds,
         threads=threads,
         tell=progress,
     )
-    start = (task.start.x, task.start.y, task.start.theta)
-    poses = pose_table(seen, problem.burdens, problem.checks, start, (task.step.length, task.step.angle))
-    places = place_table(poses)
+    poses = pose_table(seen, problem.stance_costs, problem.checks, lattice)
+    places = place_table(poses, lattice)
     rim = rim_of(seen, places, problem.checks)
     why = f"{_ENDS[seen.ended]}: {seen.stances} stances, {len(poses)} poses, {len(places)} places"
     return Reach(
@@ -226,6 +238,7 @@ def find_reach(
         poses=poses,
         places=places,
         rim=rim,
+        lattice=lattice,
         holds=_holds(task, holds, seen),
         goals=_goals(task, seen),
         checks=seen.judged,
@@ -242,7 +255,7 @@ def _ranked(names: tuple[str, ...], counts: list[int]) -> dict[str, int]:
     return dict(sorted(((name, n) for name, n in zip(names, counts, strict=True) if n), key=lambda item: -item[1]))
 
 
-def _holds(task: Any, holds: tuple[Any, ...], seen: Flood) -> tuple[HoldUse, ...]:
+def _holds(task: Any, holds: tuple[Any, ...], seen: Exploration) -> tuple[HoldUse, ...]:
     return tuple(
         HoldUse(
             number=hold.number,
@@ -257,7 +270,7 @@ def _holds(task: Any, holds: tuple[Any, ...], seen: Flood) -> tuple[HoldUse, ...
     )
 
 
-def _goals(task: Any, seen: Flood) -> tuple[GoalReach, ...]:
+def _goals(task: Any, seen: Exploration) -> tuple[GoalReach, ...]:
     return tuple(
         GoalReach(name=goal.name, stances=int(n), first_step=int(first) if n else None)
         for goal, n, first in zip(task.goals, seen.met, seen.first_met, strict=True)

@@ -11,7 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...types import Floats, Ints
-from .flood import Flood
+from ..problem.body_pose import PoseLattice
+from .exploration import Exploration
 
 Columns = dict[str, npt.NDArray[np.generic]]
 
@@ -21,11 +22,11 @@ class Table:
     """One row per pose, or per place, that the body can reach, in the order of the lattice."""
 
     lattice: Ints
-    """Steps from the start in x, y and, of poses, angle; shape (n, 3) or (n, 2)."""
+    """Steps from the start along each axis of poses, or the first two of places; shape (n, axes) or (n, 2)."""
     columns: Mapping[str, npt.NDArray[np.generic]]
-    """Name, with its unit at the end, -> values, shape (n,): `x_m`, `y_m`, `theta_rad` of poses, `stances`, `angles` of places,
-    `first_step`, `least_` and `most_` of each burden of the family (not a number where no stance has one), `margin`,
-    `margin_check`."""
+    """Name, with its unit at the end, -> values, shape (n,): the axes of poses, such as `x_m`, `y_m`, `theta_rad`,
+    and the first two of places, `stances`, `angles` of places (`poses` where more than angles differ), `first_step`, `least_` and
+    `most_` of each cost of the family's stances (not a number where no stance has one), `margin`, `margin_check`."""
 
     def __len__(self) -> int:
         return len(self.lattice)
@@ -55,48 +56,40 @@ def _plain(value: Any) -> Any:
 
 
 def pose_table(
-    seen: Flood,
-    burdens: tuple[str, ...],
+    seen: Exploration,
+    stance_costs: tuple[str, ...],
     checks: tuple[str, ...],
-    start: tuple[float, float, float],
-    step: tuple[float, float],
+    lattice: PoseLattice,
 ) -> Table:
     """The poses that the body can reach.
 
     Args:
-        seen: The flood.
-        burdens: Names of what being in a stance costs.
+        seen: The exploration.
+        stance_costs: Names of what being in a stance costs.
         checks: Names of the checks.
-        start: The task's start: x, y [m], angle [rad].
-        step: Step of the lattice [m], [rad].
+        lattice: The lattice of the body's poses.
     """
     reached = np.flatnonzero(seen.notes["stances"] > 0)
     order = reached[np.lexsort(seen.poses[reached].T[::-1])]
-    lattice, notes = seen.poses[order].astype(np.int32), seen.notes[order]
-    turn = start[2] + lattice[:, 2] * step[1]
-    columns: Columns = {
-        "x_m": start[0] + lattice[:, 0] * step[0],
-        "y_m": start[1] + lattice[:, 1] * step[0],
-        "theta_rad": math.pi - np.mod(math.pi - turn, math.tau),
-        "stances": notes["stances"],
-        "first_step": notes["depth"],
-    }
-    for k, name in enumerate(burdens):
+    steps, notes = seen.poses[order].astype(np.int32), seen.notes[order]
+    columns: Columns = {axis.column: lattice.values(steps, k) for k, axis in enumerate(lattice.axes)}
+    columns |= {"stances": notes["stances"], "first_step": notes["depth"]}
+    for k, name in enumerate(stance_costs):
         none = notes["low"][:, k] > notes["high"][:, k]
         columns[f"least_{name}"] = np.where(none, np.nan, notes["low"][:, k])
         columns[f"most_{name}"] = np.where(none, np.nan, notes["high"][:, k])
     columns["margin"] = notes["room"]
     columns["margin_check"] = np.array([*checks, ""])[notes["closest"]]
-    return Table(lattice=lattice, columns=columns)
+    return Table(lattice=steps, columns=columns)
 
 
-def place_table(poses: Table) -> Table:
-    """The places of the poses: the same over all angles there."""
+def place_table(poses: Table, axes: PoseLattice) -> Table:
+    """The places of the poses: the same over all poses there."""
     lattice, first = np.unique(poses.lattice[:, :2], axis=0, return_index=True)  # the poses are in this order, too
     columns: Columns = {}
     for name, values in poses.columns.items():
         if name == "stances":
-            columns["angles"] = np.diff(np.append(first, len(poses)))
+            columns["angles" if axes.turns_alone else "poses"] = np.diff(np.append(first, len(poses)))
             columns[name] = np.add.reduceat(values.astype(np.int64), first)
         elif name == "margin":
             ends = np.append(first[1:], len(poses))
@@ -106,7 +99,7 @@ def place_table(poses: Table) -> Table:
             columns[name] = np.fmin.reduceat(values, first)
         elif name.startswith("most_"):
             columns[name] = np.fmax.reduceat(values, first)
-        elif name in ("x_m", "y_m"):
+        elif name in [axis.column for axis in axes.axes[:2]]:
             columns[name] = values[first]
     return Table(lattice=lattice, columns=columns)
 
@@ -116,19 +109,19 @@ class Rim:
     """Places next to the map that the body can't get to, though a reachable stance could try."""
 
     lattice: Ints
-    """Steps from the start in x and y, shape (n, 2)."""
+    """Steps from the start along the first two axes, shape (n, 2)."""
     checks: tuple[str, ...]
     """Names of the checks."""
     forbidden: Ints
     """Body moves there that each check forbids, shape (n, n_checks)."""
 
 
-def rim_of(seen: Flood, places: Table, checks: tuple[str, ...]) -> Rim:
+def rim_of(seen: Exploration, places: Table, checks: tuple[str, ...]) -> Rim:
     """The rim of the places."""
     tried = np.flatnonzero(seen.notes["stances"] == 0)
     spots, where = np.unique(seen.poses[tried, :2], axis=0, return_inverse=True)
     forbidden = np.zeros((len(spots), len(checks)), np.int32)
     np.add.at(forbidden, where.ravel(), seen.notes["forbidden"][tried, : len(checks)])
     known = set(map(tuple, places.lattice.tolist()))
-    outside = np.array([tuple(spot) not in known for spot in spots.tolist()], bool)
+    outside = np.array([tuple(body_pose) not in known for body_pose in spots.tolist()], bool)
     return Rim(lattice=spots[outside].astype(np.int32), checks=checks, forbidden=forbidden[outside])

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains
-from ...families.climber.execution.course import climbable
+from ...families.climber.execution.executable_plan import climbable
 from ...families.climber.planning.plans import thesis_code
 from ...families.climber.planning.task import LimbedTask
 from ...families.climber.trials.body_bench import SLOT

@@ -133,7 +133,7 @@ def _cross(stand: BodyStand, target: Floats, gains: BodyGains) -> Crossing:
         climber.tick()
     task = body.tasks[i]
     start, end = body.tip(i), body.settled[:2] + target
-    task.doing = "tip"
+    task.mode = "swing_cartesian"
     gaps = []
     count = round(WAY / flaws.period)
     for k in range(2 * count):

@@ -11,7 +11,7 @@ import numpy as np
 from ...errors import ClamberError
 from ...execution.sequencer import Sequencer
 from ...families.climber.execution.climbing import Climbing
-from ...families.climber.execution.course import climbable, lay_course
+from ...families.climber.execution.executable_plan import climbable, lay_course
 from ...families.climber.planning.task import LimbedTask
 from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
 from ...families.climber.trials.plants import drawn_plant

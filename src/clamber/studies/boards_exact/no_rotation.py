@@ -6,9 +6,10 @@ from typing import Final
 
 import numpy as np
 
-from ...planning.beam_layers import Beam, search_layers
+from ...planning.beam_layers import search_layers
 from ...planning.genetic.planner import plan_genetic
 from ...planning.problem.plan import load_plan
+from ...planning.problem.problem import Beam
 from ...planning.problem.problems import pose_problem
 from ...planning.problem.verdict import check_plan
 from ...units import INCH

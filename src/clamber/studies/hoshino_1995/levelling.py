@@ -202,10 +202,10 @@ def _rows(legs: int, run: Inclining) -> list[tuple[Value, ...]]:
 
 
 def _course(run: Inclining):  # type: ignore[no-untyped-def]
-    from ...families.walker.pictures.walk_plots import Course
+    from ...families.walker.pictures.walk_plots import Tilts
 
     moves = list(zip(run.begins, run.arrives, strict=True))
-    return Course(run.trace.time, run.wanted / DEGREE, run.trace.inclines / DEGREE, run.true_inclines() / DEGREE, moves)
+    return Tilts(run.trace.time, run.wanted / DEGREE, run.trace.inclines / DEGREE, run.true_inclines() / DEGREE, moves)
 
 
 WAYS: Final = {"up": 0.0, "across": 90.0, "down": 180.0}

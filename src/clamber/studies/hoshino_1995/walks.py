@@ -11,7 +11,7 @@ import numpy as np
 from ...families.walker.robot import TwoFrames
 from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import stride
-from ...families.walker.trials.most import Most, Tried, find_most
+from ...families.walker.trials.max_setting import Most, Tried, find_most
 from ...families.walker.trials.run_walk import WalkRun
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict

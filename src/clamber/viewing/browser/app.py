@@ -2,24 +2,29 @@
 
 import contextlib
 import io
+import math
 import socket
+import time
 from dataclasses import replace
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from ...errors import ClamberError
+from ...errors import ClamberError, how_to_install
 from ...family import family_of
 from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
-from .exhibit import Editor, Exhibit, exhibit_of
+from .camera_panel import CameraPanel
 from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
+from .recording import RecordingPanel, file_name
 from .save_panel import SavePanel
+from .scene_view import SceneView
 from .solids import FOV, Camera, colour
-from .stage import Stage
+from .viewer_content import Editor, ViewerContent, exhibit_of
 from .work_panel import WorkPanel
 
 if TYPE_CHECKING:
@@ -35,7 +40,7 @@ class MissingViserError(ClamberError):
     """The viewer is asked for without the package that it is made with."""
 
     def __str__(self) -> str:
-        return "the viewer needs the package 'viser', which is not installed; pip install \"clamber[view]\""
+        return f"the viewer needs the package 'viser', which is not installed: {how_to_install('view')}"
 
 
 class PortError(ClamberError):
@@ -120,7 +125,7 @@ class App:
         UnguardedError: If its server would answer anybody.
     """
 
-    def __init__(self, exhibit: Exhibit, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
+    def __init__(self, exhibit: ViewerContent, host: str = LOOPBACK, port: int = 0, folder: Path = Path()) -> None:
         check_viser()
         import viser
 
@@ -135,7 +140,7 @@ class App:
         server.gui.set_panel_label(exhibit.title)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(WIDTH)
-        self.stage = Stage(server, exhibit.scenery)
+        self.stage = SceneView(server, exhibit.scenery)
         self.stage.set_film("plan", exhibit.plan_film)
         self.stage.set_film("run", exhibit.run_film)
         self.stage.shown = "both" if len(self.stage.films) > 1 else "plan"
@@ -144,6 +149,9 @@ class App:
             self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)
             self.stage.add_head()
             self.playback = Playback(server, self.stage.show, self.stage.main)
+            with server.gui.add_folder("Camera"):
+                self.camera = CameraPanel(server, self.stage)
+                self.recording = RecordingPanel(server, self.playback, file_name(exhibit.title))
             self.stage.add_details()
         self._shown.on_update(by_hand(lambda _: self.choose(self._shown.value)))
         self.work: WorkPanel | None = None
@@ -167,6 +175,7 @@ class App:
         stage.shown = "plan" if shown == "plan" else "run" if shown == "run" else "both"
         self._shown.visible = len(stage.films) > 1 and self.exhibit.planned
         set_input(self._shown, stage.shown)
+        stage.load(stage.main)
         self.playback.load(stage.main)
 
     def show_task(self, task: Any, plan: Plan | None = None) -> None:
@@ -216,10 +225,30 @@ class App:
         shown = {"0.0.0.0": LOOPBACK, "::": "[::1]"}.get(host, f"[{host}]" if ":" in host else host)
         return f"http://{shown}:{self.server.get_port()}"
 
+    def __enter__(self) -> "App":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<App {self.exhibit.title!r} at {self.url}>"
+
+    def _repr_html_(self) -> str:
+        url = escape(self.url)
+        return f'<a href="{url}" target="_blank">{escape(self.exhibit.title)}: open the viewer</a>'
+
+    def wait(self, seconds: float | None = None) -> None:
+        """Leave the page open for so long [s], or until Ctrl-C."""
+        ends = math.inf if seconds is None else time.monotonic() + seconds
+        with contextlib.suppress(KeyboardInterrupt):  # the usual end
+            while (left := ends - time.monotonic()) > 0.0:
+                time.sleep(min(0.2, left))
+
     def close(self) -> None:
         """End the work, the clock and the server."""
         if self.work is not None:
-            self.work.labour.stop(wait=1.0)
+            self.work.background_task.stop(wait=1.0)
         self.playback.stop()
         with contextlib.redirect_stdout(io.StringIO()):  # its last words
             self.server.stop()

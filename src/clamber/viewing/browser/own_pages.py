@@ -12,7 +12,7 @@ from typing import Any, Final
 from unittest.mock import patch
 from urllib.parse import parse_qs, urlsplit
 
-from ...errors import ClamberError
+from ...errors import ClamberError, how_to_install
 
 LOOPBACK_NAMES: Final = ("127.0.0.1", "localhost", "[::1]")
 TITLE: Final = b"<title>Viser</title>"
@@ -29,7 +29,7 @@ class UnguardedError(ClamberError):
         self.why = why
 
     def __str__(self) -> str:
-        return f"the viewer is not started, for {self.why}; install viser and websockets as `pip install 'clamber[view]'` does"
+        return f"the viewer is not started, for {self.why}; install viser and websockets by {how_to_install('view')}"
 
 
 class Guard:

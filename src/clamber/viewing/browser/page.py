@@ -14,14 +14,14 @@ import numpy as np
 from ...files import write_atomically
 from ...types import Floats, Json
 from .. import style
-from ..film import Film
 from ..output import check_suffix
 from ..panel import Gauges
+from ..recording import Recording
 from .app import LOOPBACK, aim_camera, check_viser, guarded_server, light_scene
-from .exhibit import Exhibit
 from .own_pages import TITLE, Guard
 from .panel_html import head_html, step_margins_html
-from .stage import STRIPS, Stage
+from .scene_view import STRIPS, SceneView
+from .viewer_content import ViewerContent
 
 SUFFIXES: Final = (".html",)
 PICTURES: Final = 20.0
@@ -32,7 +32,7 @@ END: Final = 0.01
 """So long before its end a recording may stand still; at its end it begins again [s]."""
 
 
-def write_page(exhibit: Exhibit, path: Path) -> int:
+def write_page(exhibit: ViewerContent, path: Path) -> int:
     """Write a viewer's page with the recorded scene and the client inside; nothing is loaded from elsewhere.
 
     Returns:
@@ -56,8 +56,8 @@ def write_page(exhibit: Exhibit, path: Path) -> int:
     return len(content)
 
 
-def _record(server: Any, exhibit: Exhibit) -> str:
-    stage = Stage(server, exhibit.scenery)
+def _record(server: Any, exhibit: ViewerContent) -> str:
+    stage = SceneView(server, exhibit.scenery)
     light_scene(server)
     stage.set_film("plan", exhibit.plan_film)
     stage.set_film("run", exhibit.run_film)
@@ -81,14 +81,14 @@ def _record(server: Any, exhibit: Exhibit) -> str:
     return page[:end] + panel + page[end:]
 
 
-def _times(film: Film[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
+def _times(film: Recording[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
     """When the pictures are taken, in the film's time [s]."""
     count = int(min(MOST, np.ceil(film.seconds / film.speed * PICTURES)))
     return np.linspace(0.0, film.seconds, max(count, 1) + 1) if film.seconds > 0.0 else np.zeros(1)
 
 
 def panel_data(
-    film: Film[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str, plan: Film[Any] | None
+    film: Recording[Any], times: "np.ndarray[tuple[int], np.dtype[np.float64]]", kind: str, plan: Recording[Any] | None
 ) -> Json:
     """What the page's own panel is given; times in seconds of the recording, `plan` the plan of a run."""
 

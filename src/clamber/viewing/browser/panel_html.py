@@ -8,8 +8,8 @@ import numpy as np
 
 from ...types import Floats
 from .. import style
-from ..film import Film, MarginRow
 from ..panel import Gauges
+from ..recording import MarginRow, Recording
 
 CELL: Final = "padding:1px 6px 1px 0;white-space:nowrap"
 PAD: Final = "padding:0 12px"
@@ -18,7 +18,7 @@ NEAR: Final = 0.05
 FAIR: Final = 0.15
 
 
-def head_html(film: Film[Any], step: int, moment: Any) -> str:
+def head_html(film: Recording[Any], step: int, moment: Any) -> str:
     """The step and what is to be said of the moment."""
     last = len(film.steps) - 1
     title = (
@@ -35,7 +35,7 @@ def head_html(film: Film[Any], step: int, moment: Any) -> str:
     )
 
 
-def strip_html(film: Film[Any], step: int, name: str) -> str:
+def strip_html(film: Recording[Any], step: int, name: str) -> str:
     """A coloured cell for every step, a mark at the one that is shown, a ring about the worst, and what the colours mean."""
     n = len(film.steps) - 1
     if n < 1:
@@ -101,7 +101,7 @@ def margins_html(rows: list[MarginRow], whose: str = "") -> str:
     )
 
 
-def step_margins_html(film: Film[Any], step: int, plan: Film[Any] | None, planned: int | None) -> str:
+def step_margins_html(film: Recording[Any], step: int, plan: Recording[Any] | None, planned: int | None) -> str:
     """The checks of a step; of a run that nothing judges those of its plan at the step that belongs to it, if there is one."""
     rows = film.margins(step)
     if rows or plan is None or not planned:

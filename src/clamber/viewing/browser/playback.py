@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final
 
 from .. import style
-from ..film import Film
+from ..recording import Recording
 from .inputs import by_hand, set_input
 from .solids import colour
 
@@ -22,7 +22,7 @@ LISTED: Final = 5
 """Steps that the list shows at once."""
 SHADES: Final = (style.ALERT, "#D98324", "#8FA9BD", "#6C93B5")
 """Of the list's buttons by the grade of their step: those of the strip, dark enough for white letters."""
-Show = Callable[[Film[Any], float], None]
+Show = Callable[[Recording[Any], float], None]
 """Shows a moment of a film."""
 
 
@@ -35,7 +35,7 @@ class Playback:
         film: What is played first.
     """
 
-    def __init__(self, server: "viser.ViserServer", show: Show, film: Film[Any]) -> None:
+    def __init__(self, server: "viser.ViserServer", show: Show, film: Recording[Any]) -> None:
         self._show, self._lock, self._stopped = show, threading.RLock(), threading.Event()
         self.film, self.time, self.playing = film, 0.0, False
         self._bar_moved = 0.0
@@ -65,7 +65,7 @@ class Playback:
         """The step that is shown."""
         return self.film.step_at(self.time)
 
-    def load(self, film: Film[Any], at: float = 0.0) -> None:
+    def load(self, film: Recording[Any], at: float = 0.0) -> None:
         """Take another film, and stand still at a time of it [s]."""
         with self._lock:
             self.film, self._listed = film, (-1, -1)

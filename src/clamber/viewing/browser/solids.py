@@ -40,6 +40,8 @@ class Figure(ABC):
     def __init__(self, server: "viser.ViserServer", name: str, opacity: float = 1.0) -> None:
         self._server, self._name, self._opacity, self._ghost = server, name, opacity, opacity < 1.0
         self._arrows: Any = None
+        self.middle: Floats = np.full(3, np.nan)
+        """Of its body as it is shown [m]; NaN before it is."""
         self.root = server.scene.add_frame(name, show_axes=False)
 
     @abstractmethod
@@ -63,6 +65,10 @@ class Figure(ABC):
         """Balls of the figure, likewise."""
         paint = np.array(colours, np.uint8)
         return Balls(self._server, f"{self._name}/{part}", paint, np.array(radii), self._opacity)
+
+    def rigid(self, part: str, mesh: Mesh, shade: Colour, *, flat: bool = False) -> "Rigid":
+        """A solid of the figure of any shape."""
+        return Rigid(self._server, f"{self._name}/{part}", mesh, shade, self._opacity, flat=flat)
 
     def make_arrows(self, shaft: float, head: float, length: float) -> None:
         """Make what `show_forces` shows: radius of the shaft, radius and length of the head [m]; a ghost has none."""
@@ -228,36 +234,59 @@ def along_z(ways: Floats) -> Floats:
         ways: Of any length but none, shape (n, 3).
     """
     x, y, z = (ways / np.linalg.norm(ways, axis=1, keepdims=True)).T
-    turns = np.stack((1.0 + z, -y, x, np.zeros(len(z))), axis=-1)
-    turns[z < -1.0 + 1e-9] = (0.0, 1.0, 0.0, 0.0)
+    aside = x * x + y * y
+    up = np.where(z > 0.0, 1.0 + z, aside / np.maximum(1.0 - z, 1.0))  # 1 + z, without its cancellation near -z
+    turns = np.stack((up, -y, x, np.zeros(len(z))), axis=-1)
+    turns[(aside == 0.0) & (z < 0.0)] = (0.0, 1.0, 0.0, 0.0)
     made: Floats = turns / np.linalg.norm(turns, axis=1, keepdims=True)
     return made
+
+
+def _linear(colours: Colours) -> Colours:
+    """Colours as the page takes those of batches, which it does not decode: linear (IEC 61966-2-1), else they are too light."""
+    shares = colours / 255.0
+    light = np.where(shares <= 0.04045, shares / 12.92, ((shares + 0.055) / 1.055) ** 2.4)
+    return np.round(255.0 * light).astype(np.uint8)
 
 
 class _Batch:
     """Solids of one shape, each with a colour and sizes of its own.
 
+    All that moves in a figure is in batches: viser's page draws a node's own pose in the next picture, and what is in a batch one or
+    more pictures later, so that limbs of the one kind would come off a body of the other.
+
     Args:
         server: The scene's.
         name: In the scene's tree.
+        mesh: The shape.
         colours: Of each, shape (n, 3).
-        radii: Shape (n,) [m].
         opacity: Of all.
+        flat: Whether its sides are flat.
     """
 
     def __init__(
-        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
+        self,
+        server: "viser.ViserServer",
+        name: str,
+        mesh: Mesh,
+        colours: Colours,
+        opacity: float = 1.0,
+        *,
+        flat: bool = False,
     ) -> None:
-        self._colours, self._radii, n = colours, radii, len(radii)
+        self._colours, n = colours, len(colours)
         self._scales = np.full((n, 3), 1e-6, np.float32)
         self.node = server.scene.add_batched_meshes_simple(
-            name, *self._mesh(), np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
-            batched_colors=colours, opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
+            name, *mesh, np.tile((1.0, 0.0, 0.0, 0.0), (n, 1)), np.zeros((n, 3)), batched_scales=self._scales,
+            batched_colors=_linear(colours), opacity=None if opacity >= 1.0 else opacity, lod="off", cast_shadow=opacity >= 1.0,
+            flat_shading=flat,
         )  # fmt: skip
 
-    @staticmethod
-    def _mesh() -> Mesh:
-        raise NotImplementedError
+    def paint(self, colours: Colours) -> None:
+        """Give them other colours, shape (n, 3)."""
+        if not np.array_equal(colours, self._colours):
+            self._colours = colours
+            self.node.batched_colors = _linear(colours)
 
     def _place(self, at: Floats, scales: Floats, seen: npt.NDArray[np.bool_]) -> None:
         self.node.batched_positions = np.where(seen[:, None], at, 0.0).astype(np.float32)
@@ -268,9 +297,13 @@ class _Batch:
 
 
 class Sticks(_Batch):
-    """Straight round sticks."""
+    """Straight round sticks, with a radius [m] each, shape (n,)."""
 
-    _mesh = staticmethod(rod)
+    def __init__(
+        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
+    ) -> None:
+        super().__init__(server, name, rod(), colours, opacity)
+        self._radii = radii
 
     def put(self, ends: Floats) -> None:
         """Put every stick between its ends, shape (n, 2, 3) [m]; one without length, or with an end that is NaN, is not seen."""
@@ -282,17 +315,41 @@ class Sticks(_Batch):
 
 
 class Balls(_Batch):
-    """Balls."""
+    """Balls, with a radius [m] each, shape (n,)."""
 
-    _mesh = staticmethod(ball)
+    def __init__(
+        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
+    ) -> None:
+        super().__init__(server, name, ball(), colours, opacity)
+        self._radii = radii
 
     def put(self, centres: Floats, colours: Colours | None = None) -> None:
         """Put every ball at its centre, shape (n, 3) [m]; one with NaN is not seen. Colours stay, unless given."""
         seen = np.asarray(np.isfinite(centres).all(axis=1))
         self._place(centres, np.repeat(self._radii[:, None], 3, axis=1), seen)
-        if colours is not None and not np.array_equal(colours, self._colours):
-            self._colours = colours
-            self.node.batched_colors = colours
+        if colours is not None:
+            self.paint(colours)
+
+
+class Rigid(_Batch):
+    """One solid of any shape."""
+
+    def __init__(
+        self,
+        server: "viser.ViserServer",
+        name: str,
+        mesh: Mesh,
+        shade: Colour,
+        opacity: float = 1.0,
+        *,
+        flat: bool = False,
+    ) -> None:
+        super().__init__(server, name, mesh, np.array([shade], np.uint8), opacity, flat=flat)
+
+    def put(self, at: Floats, turn: Sequence[float] | Floats) -> None:
+        """Put its origin at a place [m], shape (3,), turned by a quaternion w, x, y, z."""
+        self.node.batched_wxyzs = np.asarray(turn, np.float32)[None]
+        self._place(np.asarray(at)[None], np.ones((1, 3)), np.array([True]))
 
 
 DISC: Final = np.stack((np.cos(np.arange(24) * np.pi / 12.0), np.sin(np.arange(24) * np.pi / 12.0)), axis=-1)

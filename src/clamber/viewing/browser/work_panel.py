@@ -11,14 +11,14 @@ from ...family import family_of
 from ...kernel_cache import is_compiled
 from ...planning.planners import PLANNERS
 from ...planning.problem.plan import Plan
-from ...planning.progress import Moment, Routing, progress_text
+from ...planning.progress import ProgressEvent, Routing, progress_text
 from ...trials.dynamics import RunEvents, RunRequest
 from ...trials.work import dynamics_of
 from .. import style
-from .exhibit import Planned, Scenes
 from .inputs import set_input
 from .panel_html import message_html
 from .solids import colour
+from .viewer_content import Planned, Scenes
 
 if TYPE_CHECKING:
     import viser
@@ -162,7 +162,7 @@ class _Listener:
     def __init__(self, tell: Tell) -> None:
         self._tell, self._last = tell, time.monotonic()
 
-    def __call__(self, moment: Moment) -> None:
+    def __call__(self, moment: ProgressEvent) -> None:
         now = time.monotonic()
         if now - self._last < TOLD:
             return
@@ -195,7 +195,7 @@ class WorkPanel:
     ) -> None:
         self._task, self._scenes, self._plans = task, scenes, plans
         self._plan, self._planned, self._ran = plan, planned, ran
-        self.labour = Labour(self._tell)
+        self.background_task = Labour(self._tell)
         gui = server.gui
         with gui.add_folder("Plan and run" if plans else "Run"):
             self._planner = gui.add_dropdown("planner", list(PLANNERS), initial_value=PLANNER, visible=plans)
@@ -223,7 +223,7 @@ class WorkPanel:
             self._stop_button = gui.add_button("Stop", color=colour(style.ALERT), visible=False)
         self._plan_button.on_click(lambda _: self.plan())
         self._run_button.on_click(lambda _: self.run())
-        self._stop_button.on_click(lambda _: self.labour.stop())
+        self._stop_button.on_click(lambda _: self.background_task.stop())
 
     def plan(self) -> None:
         """Plan the task as it is now."""
@@ -287,12 +287,12 @@ class WorkPanel:
             self._say(words, reason, bad=True)
             self._show_work(False)
 
-        if self.labour.busy:
+        if self.background_task.busy:
             self._say(words, "other work is under way; stop it first", bad=True)
             return
         self.clear()
         self._show_work(True)
-        self.labour.begin(work, ended, failed)
+        self.background_task.begin(work, ended, failed)
 
     def _show_work(self, under_way: bool) -> None:
         for button in (self._plan_button, self._run_button):

@@ -33,7 +33,7 @@ NARROW = 0.05
 
 
 @kernel
-def share_wrench(held, arms, wrench, forces):
+def distribute_wrench(held, arms, wrench, forces):
     """Forces of the holds on the limbs that give the body a wrench.
 
     Two limbs apart in x: those of the thesis (4.8 to 4.12, with the moment of the x forces that it leaves out): x is shared evenly, y
@@ -84,11 +84,11 @@ def share_wrench(held, arms, wrench, forces):
 
 
 @kernel
-def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces):
+def command_contact_forces(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces):
     """What each holding tip is to do, in its port frame: an acceleration relative to the body, and a force on its hold.
 
     Args:
-        legs: Records of `LEG`, shape (n,).
+        legs: Records of `PLANAR_LIMB`, shape (n,).
         q: Joint angles, shape (n, 2) [rad].
         held: 1 for limbs that hold, shape (n,).
         pose: Body pose, shape (3,).
@@ -103,8 +103,8 @@ def command_tips(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, 
         pulls: Filled with accelerations, port frame, shape (n, 2).
         forces: Filled with forces of the tips on their holds, port frame, shape (n, 2) [N].
     """
-    share_wrench(held, arms, fed, forces)
-    share_wrench(held, arms, wanted, pulls)
+    distribute_wrench(held, arms, fed, forces)
+    distribute_wrench(held, arms, wanted, pulls)
     count, a, b = _pair(held)
     feasible = limit == LIMIT_FEASIBLE and count == 2
     if feasible:
@@ -243,7 +243,7 @@ def limit_pull(leg, q, limit, least, pull, force):
     the body does not float up (ours): g'' >= alpha - g . (S^-1 F), S = J^-T K' J^-1.
 
     Args:
-        leg: A record of `LEG`.
+        leg: A record of `PLANAR_LIMB`.
         q: Its joint angles, shape (2,).
         limit: LIMIT_THESIS or LIMIT_COUNTED.
         least: alpha.

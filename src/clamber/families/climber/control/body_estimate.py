@@ -3,7 +3,7 @@
 import math
 
 from ....compiled import inlined, kernel
-from .leg import move_tips, place_tips
+from .planar_limb import move_tips, place_tips
 
 LINE, ENCODER, SECOND_TIP = range(3)
 """Sources of the body's angle: the line between two tips, the body's own encoder, the height of the second tip (as printed in 4.4.3)."""
@@ -22,7 +22,7 @@ def estimate_body(legs, q, qd, weights, holds, angle, angle_speed, angle_from, t
     does not jump; with the rule of 4.4.3 it is that of the first limb alone.
 
     Args:
-        legs: Records of `LEG`, shape (n,).
+        legs: Records of `PLANAR_LIMB`, shape (n,).
         q, qd: Joint angles and speeds, shape (n, 2).
         weights: Of the limbs that hold, 0 for others, shape (n,).
         holds: Believed places of their holds, shape (n, 2) [m].

@@ -9,16 +9,16 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
-from ....control.drive import DESK, DESK_TORQUES, drive_at
+from ....control.drive import BUFFERS_TORQUES, CONTROLLER_BUFFERS, drive_packed
 from ....control.records import AIM, AXES
-from .body import WRENCH, command_tips, drag_tips
+from .backlash import follow_play, pull_torques, weight_loads, weight_moment
+from .body import WRENCH, command_contact_forces, drag_tips
 from .body_estimate import estimate_body
 from .hook_forces import MOST_CUTS
-from .leg import LEG
-from .play import follow_play, pull_torques, weight_loads, weight_moment
+from .planar_limb import PLANAR_LIMB
 
-HOLD, CLING, TIP, JOINTS, PULL, HANG = range(6)
-"""What a limb is doing."""
+STANCE, UNLOADED_CONTACT, SWING_CARTESIAN, SWING_JOINT, CONTACT_PUSH, HANG = range(6)
+"""Modes of a limb."""
 CLING_DAMPING = 60.0
 """Of the tip of a limb that clings [N s/m]."""
 CLING_STIFFNESS = 1500.0
@@ -49,17 +49,17 @@ BODY = np.dtype(
     align=True,
 )
 """Gains of body and limbs."""
-JOB = np.dtype(
+LIMB_TASK = np.dtype(
     [
-        ("doing", "i4"),
-        ("pressed", "i4"),  # of PULL: whether the tip has stopped against something
-        ("place", "f8", (2,)),  # of CLING: the hold, of TIP: the aim, world frame
+        ("mode", "i4"),
+        ("pressed", "i4"),  # of CONTACT_PUSH: whether the tip has stopped against something
+        ("place", "f8", (2,)),  # of CLING: the hold, of SWING_CARTESIAN: the aim, world frame
         ("speed", "f8", (2,)),  # of that aim
-        ("angles", "f8", (2,)),  # of JOINTS and HANG
+        ("angles", "f8", (2,)),  # of SWING_JOINT and HANG
         ("rates", "f8", (2,)),
-        ("accelerations", "f8", (2,)),  # of JOINTS
+        ("accelerations", "f8", (2,)),  # of SWING_JOINT
         ("loads", "f8", (2,)),  # of HANG: torques besides
-        ("force", "f8", (2,)),  # of PULL: of the tip on what it meets, world frame
+        ("force", "f8", (2,)),  # of CONTACT_PUSH: of the tip on what it meets, world frame
         ("tug", "f8", (2,)),  # the steady part of that, which the body leans on
         ("damping", "f8"),
     ],
@@ -96,7 +96,7 @@ def see_tick(table, angle, angle_speed, angle_from):
         angle_from: As in `estimate_body`.
     """
     n = table[LIMBS]
-    legs = carray(pointer(table[LEGS]), n, LEG)
+    legs = carray(pointer(table[LEGS]), n, PLANAR_LIMB)
     q = _rows(table, Q, 2)
     qd = _rows(table, QD, 2)
     lagged = _rows(table, LAGGED, 2)
@@ -140,7 +140,7 @@ def _feed(jobs, tips, settled, gains, moment, fed):
     fed[2] = gains.weight_fed * moment
     for i in range(jobs.size):
         job = jobs[i]
-        if job.doing == PULL:
+        if job.mode == CONTACT_PUSH:
             x, y = _in_world(settled, tips[i, 0], tips[i, 1])
             fed[0] += job.tug[0]
             fed[1] += job.tug[1]
@@ -156,7 +156,7 @@ def _aim_limb(job, leg, tip, tip_speed, settled_tip, pose, twist, settled, pull,
     y = tip[1] - leg.port_y
     aim.place[0] = c * x + s * y
     aim.place[1] = -s * x + c * y
-    if job.doing == HOLD:
+    if job.mode == STANCE:
         aim.place[0] += pull[0]
         aim.place[1] += pull[1]
         aim.twist[0] = 0.0
@@ -205,7 +205,7 @@ def _even_out(loads, now, part):
 def _wish(table):
     """What the body is to be given: what brings it to its aim, and the weight that is fed forward."""
     n = table[LIMBS]
-    legs = carray(pointer(table[LEGS]), n, LEG)
+    legs = carray(pointer(table[LEGS]), n, PLANAR_LIMB)
     gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
     holds = _rows(table, HOLDS, 2)
     arms = _rows(table, ARMS, 2)
@@ -226,18 +226,18 @@ def _wish(table):
         drag_tips(_rows(table, TIP_SPEEDS, 2), pose[2], arms, aim_speed, gains.damping, _rows(table, DRAGS, 2))
     moment = weight_moment(legs, _rows(table, Q, 2), pose[2])
     _feed(
-        carray(pointer(table[JOBS]), n, JOB), _rows(table, SETTLED_TIPS, 2), _line(table, SETTLED, 3), gains, moment,
+        carray(pointer(table[JOBS]), n, LIMB_TASK), _rows(table, SETTLED_TIPS, 2), _line(table, SETTLED, 3), gains, moment,
         _line(table, FED, 3),
     )  # fmt: skip
 
 
 @inlined
-def _command_tips(table, carriers, pulls, forces):
+def _command_contact_forces(table, carriers, pulls, forces):
     """What the tips of these carriers do for it."""
     n = table[LIMBS]
     gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    command_tips(
-        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), carriers, _line(table, POSE, 3), _rows(table, ARMS, 2),
+    command_contact_forces(
+        carray(pointer(table[LEGS]), n, PLANAR_LIMB), _rows(table, Q, 2), carriers, _line(table, POSE, 3), _rows(table, ARMS, 2),
         _line(table, WANTED, 3), _line(table, FED, 3), gains.mapping, gains.limit, _line(table, LEAST, n),
         _rows(table, DRAGS, 2), carray(pointer(table[CUTS]), (MOST_CUTS, 2), np.float64), pulls, forces,
     )  # fmt: skip
@@ -253,25 +253,25 @@ def _share(table, handed):
         carriers = carray(pointer(table[CARRIERS]), (2, n), np.int64)
         old_pulls = _rows(table, OLD_PULLS, 2)
         old_forces = _rows(table, OLD_FORCES, 2)
-        _command_tips(table, carriers[0], old_pulls, old_forces)
-        _command_tips(table, carriers[1], pulls, forces)
+        _command_contact_forces(table, carriers[0], old_pulls, old_forces)
+        _command_contact_forces(table, carriers[1], pulls, forces)
         for i in range(n):
             for k in range(2):
                 # cones are convex: between two loads that keep a hook on, all do
                 pulls[i, k] += (1.0 - handed) * (old_pulls[i, k] - pulls[i, k])
                 forces[i, k] += (1.0 - handed) * (old_forces[i, k] - forces[i, k])
     else:
-        _command_tips(table, carray(pointer(table[HELD]), n, np.int64), pulls, forces)
+        _command_contact_forces(table, carray(pointer(table[HELD]), n, np.int64), pulls, forces)
 
 
 @inlined
 def _by_law(table, i, torques):
     """Torques of a limb whose law holds or moves its tip, its own weight carried; whether the law was given what is not finite."""
     n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
     gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, JOB)[i]
-    drives = carray(pointer(table[DRIVES]), (2, n, DESK), np.int64)
+    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
+    drives = carray(pointer(table[DRIVES]), (2, n, CONTROLLER_BUFFERS), np.int64)
     aims = carray(pointer(table[LIMB_AIM]), 1, AIM)
     states = carray(pointer(table[STATES]), (1, 2, 2), np.float64)
     felt = carray(pointer(table[FELT]), (1, AXES), np.float64)
@@ -286,11 +286,11 @@ def _by_law(table, i, torques):
         job, leg, _rows(table, TIPS, 2)[i], _rows(table, TIP_SPEEDS, 2)[i], _rows(table, SETTLED_TIPS, 2)[i], pose,
         _line(table, TWIST, 3), _line(table, SETTLED, 3), _rows(table, PULLS, 2)[i], _rows(table, FORCES, 2)[i], aims[0],
     )  # fmt: skip
-    law = 0 if job.doing == HOLD else 1
-    bad = drive_at(drives[law, i], aims, states, felt, felt) >= 0
-    given = carray(pointer(drives[law, i, DESK_TORQUES]), 2, np.float64)
+    law = 0 if job.mode == STANCE else 1
+    bad = drive_packed(drives[law, i], aims, states, felt, felt) >= 0
+    given = carray(pointer(drives[law, i, BUFFERS_TORQUES]), 2, np.float64)
     part = 1.0
-    if job.doing == TIP:
+    if job.mode == SWING_CARTESIAN:
         # a joint cut alone would turn the force at the tip, and wedge a hook on the hold that it leaves
         part = min(1.0, gains.gentle / max(abs(given[0]), abs(given[1]), 1e-9))
     # carried however the body is turned, which the law does not know
@@ -304,14 +304,14 @@ def _by_law(table, i, torques):
 def _by_pull(table, i, torques):
     """Torques of a limb that pulls on something with a force, and what they say of the play's sides."""
     n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
     gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, JOB)[i]
+    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
     q = _rows(table, Q, 2)
     qd = _rows(table, QD, 2)
     pose = _line(table, POSE, 3)
     loads_now = _line(table, LOADS_NOW, 2)
-    if job.doing == CLING:
+    if job.mode == UNLOADED_CONTACT:
         force = _clinging(
             job, leg, q[i], _rows(table, SETTLED_TIPS, 2)[i], pose, _line(table, SETTLED, 3), gains.cling
         )  # fmt: skip
@@ -336,14 +336,14 @@ def _rub(damping, friction, rate):
 def _by_joints(table, i, torques):
     """Torques of a limb whose joints go to angles, or hang there under a load."""
     n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, LEG)[i]
+    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
     gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, JOB)[i]
+    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
     q = _rows(table, Q, 2)
     qd = _rows(table, QD, 2)
     torques[0] = leg.share1 * (gains.joint_kp * (job.angles[0] - q[i, 0]) + gains.joint_kd * (job.rates[0] - qd[i, 0]))
     torques[1] = leg.share2 * (gains.joint_kp * (job.angles[1] - q[i, 1]) + gains.joint_kd * (job.rates[1] - qd[i, 1]))
-    if job.doing == HANG:
+    if job.mode == HANG:
         torques[0] += job.loads[0]
         torques[1] += job.loads[1]
     else:
@@ -365,24 +365,24 @@ def command_tick(table, handed):
         The first limb whose law was given something that is not finite, -1 where there is none.
     """
     n = table[LIMBS]
-    jobs = carray(pointer(table[JOBS]), n, JOB)
+    jobs = carray(pointer(table[JOBS]), n, LIMB_TASK)
     pressed = carray(pointer(table[PRESSED]), n, np.int64)
     torques = _rows(table, TORQUES, 2)
     _wish(table)
     _share(table, handed)
     bad = -1
     for i in range(n):
-        doing = jobs[i].doing
-        if doing in (HOLD, TIP):
+        mode = jobs[i].mode
+        if mode in (STANCE, SWING_CARTESIAN):
             if _by_law(table, i, torques[i]) and bad < 0:
                 bad = i
-        elif doing in (CLING, PULL):
+        elif mode in (UNLOADED_CONTACT, CONTACT_PUSH):
             _by_pull(table, i, torques[i])
         else:
             _by_joints(table, i, torques[i])
-        pressed[i] = doing == CLING or (doing == PULL and jobs[i].pressed != 0)
+        pressed[i] = mode == UNLOADED_CONTACT or (mode == CONTACT_PUSH and jobs[i].pressed != 0)
     follow_play(
-        carray(pointer(table[LEGS]), n, LEG), _rows(table, Q, 2), _rows(table, QD, 2),
+        carray(pointer(table[LEGS]), n, PLANAR_LIMB), _rows(table, Q, 2), _rows(table, QD, 2),
         carray(pointer(table[HELD]), n, np.int64), _rows(table, FORCES, 2), _line(table, POSE, 3)[2], pressed,
         _rows(table, LOADS, 2), _line(table, LAG, 3), _rows(table, PLAY, 2), _rows(table, SURE, 2),
     )  # fmt: skip

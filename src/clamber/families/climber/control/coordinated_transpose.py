@@ -50,7 +50,7 @@ def transpose_torques(leg, q, pose, force, torques):
     """Torques -J^T R of a limb on whose tip its hold brings a force.
 
     Args:
-        leg: A record of `LEG`.
+        leg: A record of `PLANAR_LIMB`.
         q: Its joint angles, shape (2,) [rad].
         pose: Of the body, shape (3,) [m], [rad].
         force: R, world frame, shape (2,) [N].

@@ -20,7 +20,7 @@ def feel_forces(legs, held, q, qd, before, torques, angle, period, rate, felt, f
     """Forces of the tips on what they touch.
 
     Args:
-        legs: Records of `LEG`, shape (n,).
+        legs: Records of `PLANAR_LIMB`, shape (n,).
         held: 1 for limbs that hold, shape (n,).
         q, qd: Joint angles and speeds now, shape (n, 2).
         before: Joint speeds at the tick before; set to those of now, shape (n, 2).

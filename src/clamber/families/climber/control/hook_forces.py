@@ -45,7 +45,7 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
     to their bounds; of more than these allow it gets a part.
 
     Args:
-        legs: Records of `LEG`, shape (n,).
+        legs: Records of `PLANAR_LIMB`, shape (n,).
         q: Joint angles, shape (n, 2) [rad].
         a, b: The limbs.
         pose: Body pose, shape (3,).
@@ -66,14 +66,14 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
     wishes = (math.sin(WISHED_CONE), math.cos(WISHED_CONE), WISHED_PULL, WISHED_TORQUE)
     bounds = (math.sin(WIDEST_CONE), math.cos(WIDEST_CONE), LEAST_PULL, MOST_TORQUE)
     count, easiest = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, wishes, cuts, forces)
-    lam, margin = best_within(cuts, count, easiest)
+    lam, margin = max_min_solution(cuts, count, easiest)
     part = 0.0
     if more[0] != 0.0 or more[1] != 0.0 or more[2] != 0.0:
         count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, bounds, cuts, forces)
-        _, floor = best_within(cuts, count, lam)
+        _, floor = max_min_solution(cuts, count, lam)
         floor = min(floor, 0.0)
         count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 1.0, bounds, cuts, forces)
-        whole, least = best_within(cuts, count, lam)
+        whole, least = max_min_solution(cuts, count, lam)
         part = 1.0
         if least < floor:
             # the worst cut is a concave function of the part, so what serves is an interval from 0
@@ -82,7 +82,7 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
             step = 0.5
             for _ in range(HALVINGS):
                 count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, part + step, bounds, cuts, forces)
-                found, least = best_within(cuts, count, lam)
+                found, least = max_min_solution(cuts, count, lam)
                 if least >= floor:
                     part += step
                     whole = found
@@ -178,7 +178,7 @@ def _add_cuts(leg, q, angle, force, ux, uy, size, wishes, cuts, count):
 
 
 @kernel
-def best_within(cuts, count, wished):
+def max_min_solution(cuts, count, wished):
     """The lambda nearest to `wished` that meets all cuts c + d lambda >= 0, or the one whose worst cut is best; and that cut's value there.
 
     Args:

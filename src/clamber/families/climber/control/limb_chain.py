@@ -6,7 +6,7 @@ from ....control.chain import Chain, ShareBasis, _wrapped, empty_chain, rotation
 from ....types import Records
 from ....units import GRAVITY
 from ..robot.robot import Joint, Limb, LimbedRobot
-from .leg import LEG
+from .planar_limb import PLANAR_LIMB
 
 
 def chain_of_limb(robot: LimbedRobot, name: str, *, basis: ShareBasis = "inertia", upright: bool = False) -> Chain:
@@ -77,8 +77,8 @@ def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float]
 
 
 def legs_of(robot: LimbedRobot) -> Records:
-    """Records of `control.leg.LEG`, shape (limbs,)."""
-    legs = np.zeros(len(robot.limbs), LEG)
+    """Records of `control.planar_limb.PLANAR_LIMB`, shape (limbs,)."""
+    legs = np.zeros(len(robot.limbs), PLANAR_LIMB)
     for i, limb in enumerate(robot.limbs):
         joints = chain_of_limb(robot, limb.name).joints
         masses, centres = joints["mass"], joints["centre"][:, 0]

@@ -54,7 +54,7 @@ def clearance(leg, t1, t2, discs, walls, link_radius, hook):
     """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
 
     Args:
-        leg: A record of `leg.LEG`.
+        leg: A record of `leg.PLANAR_LIMB`.
         t1, t2: Its joint angles [rad].
         discs: Obstacles x, y, radius in the body frame, shape (n, 3) [m].
         walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
@@ -92,7 +92,7 @@ def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, h
     """Cheapest way over the grid of joint angles, length made dearer near obstacles.
 
     Args:
-        leg: A record of `leg.LEG`.
+        leg: A record of `leg.PLANAR_LIMB`.
         lower, upper: Joint limits, shape (2,) [rad].
         cells: Grid points along each joint.
         start, goal: Joint angles, shape (2,) [rad].

@@ -23,7 +23,7 @@ def repel_limbs(legs, q, free, corners, skin, field, torques, gaps):
     """Add the torques of the potential to those of the free limbs.
 
     Args:
-        legs: Records of `LEG`, shape (n,).
+        legs: Records of `PLANAR_LIMB`, shape (n,).
         q: Joint angles, shape (n, 2) [rad].
         free: 1 for limbs that the potential acts on, shape (n,).
         corners: Of the body, body frame, a convex polygon, shape (corners, 2) [m].

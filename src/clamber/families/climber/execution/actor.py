@@ -8,13 +8,13 @@ import numpy as np
 from ....execution.run_report import Outcome
 from ....types import Floats
 from .climber import Climber, Grabbed
-from .course import Course, swings
 from .ends import grab, press_on, release
+from .executable_plan import ExecutablePlan, swings
 from .hang import Hang
 from .hook import may_stay
-from .let_go import let_go
 from .motions import clear_the_way, is_clear, move_body
 from .parking import OUT
+from .release_to_hang import release_to_hang
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
@@ -46,7 +46,7 @@ class Actor:
         course: The plan; another may take its place.
     """
 
-    def __init__(self, climber: Climber, course: Course) -> None:
+    def __init__(self, climber: Climber, course: ExecutablePlan) -> None:
         self.climber, self.course = climber, course
         self.missed: set[int] = set()
         """Numbers of holds that could not be had."""
@@ -121,7 +121,7 @@ class Actor:
         """
         body = self.climber.body
         for i, task in enumerate(body.tasks):
-            if i == acts or task.doing != "cling":
+            if i == acts or task.mode != "unloaded_contact":
                 continue
             off = task.place - body.tip(i)
             far = float(np.hypot(*off)) > SLID[1]
@@ -141,7 +141,7 @@ class Actor:
             stay = [i for i, task in enumerate(tasks) if task.hold and i != leaving]
             if leaving is None or len(stay) != 1:
                 return "more than one limb would have to let go"
-            self.hanging = let_go(climber, leaving, stay[0])
+            self.hanging = release_to_hang(climber, leaving, stay[0])
             if self.hanging is None:
                 return "the weight cannot be brought below the hold that is to carry it alone"
         elif self.hanging is None:  # a slip has left the body to one limb

@@ -103,7 +103,7 @@ class Approaches:
 
     Args:
         robot: The climber.
-        legs: Records of `control.leg.LEG`, one per limb.
+        legs: Records of `control.planar_limb.PLANAR_LIMB`, one per limb.
         peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 

@@ -12,7 +12,7 @@ import numpy as np
 from ....control.controller import Controller, still_aim
 from ....control.law_settings import LawSettings
 from ....types import Floats
-from ..control.body import share_wrench
+from ..control.body import distribute_wrench
 from ..control.coordinated_transpose import share_from_first, transpose_torques
 
 if TYPE_CHECKING:
@@ -47,7 +47,9 @@ class LegByLeg:
         held[holding] = 1
         for i in holding:
             self._arms[i] = body.tasks[i].place - body.pose[:2]
-        share_wrench(held, self._arms, np.array((0.0, body.gains.weight_fed * body.robot.weight, 0.0)), self._forces)
+        distribute_wrench(
+            held, self._arms, np.array((0.0, body.gains.weight_fed * body.robot.weight, 0.0)), self._forces
+        )
         for i, controller in enumerate(self._controllers):
             hold = body.tasks[i].hold if held[i] else 0
             if hold != self._before[i]:  # a law that remembers joint angles starts anew at each hold

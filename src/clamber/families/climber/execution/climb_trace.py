@@ -180,7 +180,7 @@ class TracedClimber(Climber):
         parts = (
             (self.time, self.step), body.settled, body.aim, () if true is None else true.pose,
             body.q.ravel(), () if true is None else true.q.ravel(), body.torques.ravel(),
-            [task.hold for task in body.tasks], [task.doing == "hold" for task in body.tasks],
+            [task.hold for task in body.tasks], [task.mode == "stance" for task in body.tasks],
         )  # fmt: skip
         row = np.empty(self._width)
         start = 0

@@ -130,15 +130,15 @@ class Climber:
         q = np.zeros((self.body.n, 2))
         for i, limb in enumerate(self.robot.limbs):
             number = holds.get(limb.name, 0)
-            task = LimbTask("joints")
+            task = LimbTask("swing_joint")
             if number:
                 place = self.holds[number]
                 q[i] = rank(postures(limb, pose, place), elbows.get(limb.name, 0))[0].angles
-                task = LimbTask("cling" if limb.name == idle else "hold", number, place.copy())
+                task = LimbTask("unloaded_contact" if limb.name == idle else "stance", number, place.copy())
             task.angles = q[i].copy()
             self.grips[i] = number > 0
             self.body.tasks[i] = task
-        self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.doing == "hold"])
+        self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.mode == "stance"])
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
         self.body.aim_speed[:] = 0.0
@@ -186,9 +186,9 @@ class Climber:
             raise FallenError(
                 f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
             )
-        if self.body.tasks[holding[0]].doing == "hang":
+        if self.body.tasks[holding[0]].mode == "hang":
             self.body.aim[:] = self.body.pose  # it swings where it will
-        slack = [i for i in self._gripping if self.body.tasks[i].doing == "hold" and not self.gripped[i]]
+        slack = [i for i in self._gripping if self.body.tasks[i].mode == "stance" and not self.gripped[i]]
         self._slipped = self._slipped + 1 if slack else 0
         if self._slipped * self.plant.period > 0.1:
             raise FallenError(f"the gripper of '{self.robot.limbs[slack[0]].name}' has slipped off its hold")
@@ -253,7 +253,7 @@ class Climber:
     @property
     def hangs(self) -> bool:
         """Whether one limb holds the body, which swings as it will."""
-        return any(task.doing == "hang" for task in self.body.tasks)
+        return any(task.mode == "hang" for task in self.body.tasks)
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""

@@ -15,9 +15,9 @@ from .actor import ARRIVED, Actor
 from .climb_report import ActionReport, ClimbReport, NewPlan, beyond
 from .climb_trace import TracedClimber
 from .climber import FallenError, SlippedError
-from .course import Course, PlanRefusedError, lay_course, names_of
-from .here import task_from_here
+from .executable_plan import ExecutablePlan, PlanRefusedError, lay_course, names_of
 from .recover import recover
+from .remaining_task import task_from_here
 
 Replan: TypeAlias = Callable[[LimbedTask], Plan | None]
 """A plan for a task that starts where the robot is; None where there is none."""
@@ -46,7 +46,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
     goes_on = frozenset({"ok", "stalled"})
 
     def __init__(
-        self, climber: TracedClimber, course: Course, *, replan: Replan | None = None, force: bool = False
+        self, climber: TracedClimber, course: ExecutablePlan, *, replan: Replan | None = None, force: bool = False
     ) -> None:
         if course.objections and not force:
             raise course.objections[0]
@@ -56,7 +56,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         self.report = ClimbReport(forced=names_of(course.objections))
 
     @property
-    def course(self) -> Course:
+    def course(self) -> ExecutablePlan:
         """The plan that is carried out now."""
         return self._actor.course
 

@@ -62,13 +62,13 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> tuple[I
         came[step] = np.argmin(total, axis=0)
         best[step] = np.min(total, axis=0) + costs[step]
     sides: Ints = np.zeros((n, limbs), np.int32)
-    against: Floats = np.zeros(n)
+    elbow_costs: Floats = np.zeros(n)
     at = int(np.argmin(best[-1]))
     for step in range(n - 1, -1, -1):
         sides[step] = np.where(stances["hold"][step, :limbs] >= 0, 1 - 2 * states[at], 0)
-        against[step] = costs[step, at]
+        elbow_costs[step] = costs[step, at]
         at = int(came[step, at])
-    return sides, against
+    return sides, elbow_costs
 
 
 def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:

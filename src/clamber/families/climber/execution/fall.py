@@ -68,7 +68,7 @@ class FallWatch:
         self._fastest = max(self._fastest, rate) if self.loose > 0.0 else 0.0
         if self.loose <= LOOSE:
             return False
-        hangs = any(task.doing == "hang" for task in body.tasks)
+        hangs = any(task.mode == "hang" for task in body.tasks)
         drops = hangs and self.carried < WEIGHTLESS[0] * body.robot.weight and self._fastest > WEIGHTLESS[1]
         return drops or (rate > MOVES and self.carried + self._hidden() < self._least)
 

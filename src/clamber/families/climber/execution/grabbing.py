@@ -119,7 +119,7 @@ def press_on(climber: Climber, i: int, end: End) -> bool:
     if held:
         _take(climber, i, number)
     else:
-        task.hold, task.doing, task.side = number, "cling", 0
+        task.hold, task.mode, task.side = number, "unloaded_contact", 0
     return held
 
 
@@ -130,5 +130,5 @@ def _take(climber: Climber, i: int, number: int) -> None:
     climber.latest, climber.proven = i, False
     task.hold, task.place = number, climber.holds[number].copy()
     if not task.pressed:  # else a body that hangs leans on it, until both carry
-        task.doing, task.side = "cling", 0
+        task.mode, task.side = "unloaded_contact", 0
     climber.wait(HELD)

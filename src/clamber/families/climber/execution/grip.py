@@ -159,7 +159,7 @@ def close(
     move_tip(climber, i, place, 0.6)
     climber.wait(0.1)
     climber.grips[i] = 1
-    task.doing, task.place = "cling", place.copy()  # the jaws draw the tip to the hold
+    task.mode, task.place = "unloaded_contact", place.copy()  # the jaws draw the tip to the hold
     climber.wait(CLOSED)
     return bool(climber.gripped[i]) and _holds(climber, i, found.grab)
 
@@ -178,7 +178,7 @@ def back_off(climber: Climber, i: int, hold: Floats, doubt: float, found: Approa
 def _holds(climber: Climber, i: int, g: Floats) -> bool:
     """Whether closed jaws bear a tug, which also brings the joints to one side of their play."""
     task, period = climber.body.tasks[i], climber.plant.period
-    task.doing, task.pressed = "pull", True
+    task.mode, task.pressed = "contact_push", True
     for k in range(round(2 * TUG_RISE / period)):
         task.force = -TUG * min(k * period / TUG_RISE, 1.0) * g
         task.tug = task.force

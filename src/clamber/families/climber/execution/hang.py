@@ -85,7 +85,7 @@ class Hang:
         self._upper = np.array((limb.shoulder.upper, limb.elbow.upper))
         self.tune()
         task = body.tasks[i]
-        task.doing = "hang"
+        task.mode = "hang"
         pose = self.pendulum.pose(body.q, task.place)
         self.wish = np.array((task.place[1] - pose[1], pose[2]))
         """Depth of the body below the hold [m] and its angle [rad], at rest."""
@@ -203,10 +203,10 @@ class Hang:
         """Let every limb on a hold carry the body where it is; at once, where it leans on one that pulls: the two are in balance there."""
         body = self.climber.body
         self.climber.balance = None
-        body.tasks[self.i].doing = "hold"
+        body.tasks[self.i].mode = "stance"
         body.aim[:] = body.pose
         body.aim_speed[:] = 0.0
-        pulling = [i for i, task in enumerate(body.tasks) if task.hold and task.doing == "pull"]
+        pulling = [i for i, task in enumerate(body.tasks) if task.hold and task.mode == "contact_push"]
         for i in pulling:
             body.tasks[i].pressed, body.tasks[i].tug = False, np.zeros(2)
         for task in body.tasks:

@@ -15,7 +15,7 @@ from .hook_release import release as release
 from .hook_release import stand_off_of
 from .motions import JOINT_SPEED, follow, may_move, move_body, move_tip
 from .postures import postures
-from .pushed_body import PushedBody
+from .swing_contact_monitor import PushedBody
 
 SLACK: Final = 0.008
 """Beyond its doubt, how far a seated hook may be from where it should be: play and backlash [m]."""
@@ -122,7 +122,7 @@ def _comes_to(climber: Climber, i: int, place: Floats) -> bool:
     task, start = body.tasks[i], body.tip(i)
     length = math.dist(start, place)
     way = (place - start) / max(length, 1e-9)
-    task.doing, gone, mark, stands = "tip", 0.0, 0.0, 0.0
+    task.mode, gone, mark, stands = "swing_cartesian", 0.0, 0.0, 0.0
     watch = PushedBody(climber)
     while stands < NO_WAY[1]:
         gone = min(gone + BACK_SPEED * period, length)

@@ -76,7 +76,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         let go of would swing.
     """
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
-    task.doing, task.pressed, task.tug = "pull", False, np.zeros(2)
+    task.mode, task.pressed, task.tug = "contact_push", False, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks, anew = False, np.full(2, -np.inf), 0
     rested, apart = body.pose[:2].copy(), _apart(climber)

@@ -49,9 +49,9 @@ def release(climber: Climber, i: int) -> None:
             break
         climber.tick()
     if not clear() and not _shake_off(climber, i, clear):
-        task.doing = "cling"
+        task.mode = "unloaded_contact"
         return
-    if task.doing == "tip":
+    if task.mode == "swing_cartesian":
         climber.wait(CALM)
     task.hold = 0
     task.stay(body.q[i])
@@ -71,7 +71,7 @@ def stand_off(limb: Limb, radius: float, doubt: float) -> float:
 def _shake_off(climber: Climber, i: int, clear: Callable[[], bool]) -> bool:
     """Pull a wedged hook back and to and fro, free to go where its walls let it; whether it comes clear."""
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
-    task.doing, task.pressed = "pull", True
+    task.mode, task.pressed = "contact_push", True
     for k in range(round(SHAKING / period)):
         g = body.grab_direction(i)
         task.force = -PUSH * g + WIDE_DITHER * np.sin(2 * np.pi * WIDE_RATE * k * period) * np.array((-g[1], g[0]))

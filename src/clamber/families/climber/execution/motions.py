@@ -10,7 +10,7 @@ from ....types import Floats
 from .climber import Climber
 from .parking import SPARE, TIGHT, park, passes, poses_between, room_along
 from .postures import postures
-from .pushed_body import PushedBody
+from .swing_contact_monitor import PushedBody
 
 BODY_SPEED: Final = 0.08
 """Of the body's aim, at most [m/s]."""
@@ -63,8 +63,8 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     clear_the_way(climber, pose)
     body, period = climber.body, climber.plant.period
     if drawn is not None:
-        body.tasks[drawn[0]].doing = "tip"
-    speed = SLOW if any(task.doing == "cling" for task in body.tasks) else BODY_SPEED
+        body.tasks[drawn[0]].mode = "swing_cartesian"
+    speed = SLOW if any(task.mode == "unloaded_contact" for task in body.tasks) else BODY_SPEED
     start = body.aim.copy()
     change = pose - start
     # the way in seconds at full speed
@@ -108,7 +108,7 @@ def _yield(climber: Climber) -> set[int]:
     """Let free limbs that wait, and are pressed away from where they are to be, go where what presses them wants; which."""
     body, found = climber.body, set()
     for i, task in enumerate(body.tasks):
-        if task.doing == "joints" and float(np.abs(task.angles - body.q[i]).max()) > LAG[0]:
+        if task.mode == "swing_joint" and float(np.abs(task.angles - body.q[i]).max()) > LAG[0]:
             task.give_way()
             found.add(i)
     return found
@@ -210,7 +210,7 @@ def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> bool:
     One that pushes the body away by what it meets gives way.
     """
     task, period = climber.body.tasks[i], climber.plant.period
-    task.doing = "tip"
+    task.mode = "swing_cartesian"
     start = climber.body.tip(i)
     count, rise = max(1, round(seconds / period)), seconds / 3
     watch = PushedBody(climber)
@@ -252,7 +252,7 @@ def follow(
     rates = np.diff(smooth, axis=0) / period
     surges = np.diff(rates, axis=0, append=0.0) / period
     paces = _round_corners(surges, window)
-    task.doing = "joints"
+    task.mode = "swing_joint"
     body = climber.body
     q, waited, gone, last = body.q[i], 0.0, 0.0, len(smooth) - 1
     stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=most >= JOINT_SPEED)

@@ -14,7 +14,7 @@ from .motions import clear_the_way, move_body
 from .parking import OUT
 from .postures import postures
 
-ONWARDS: Final = ("hold", "cling", "hang")
+ONWARDS: Final = ("stance", "unloaded_contact", "hang")
 """What a limb on its hold does."""
 BRAKING: Final = 0.15
 """Time in which the body is only slowed down, wherever that takes it [s]."""
@@ -103,12 +103,12 @@ def catch(climber: Climber, lost: int, *, surely: bool = False) -> Hang | None:
     climber.fall.reset()
     climber.slip.reset()
     for i, task in enumerate(body.tasks):
-        if task.doing == "tip" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
-            task.doing = "cling"
-    others = sum(i != lost and (task.doing in ONWARDS or task.pushes) for i, task in enumerate(body.tasks))
+        if task.mode == "swing_cartesian" and task.hold and math.dist(body.tip(i), task.place) < IN_SLOT:
+            task.mode = "unloaded_contact"
+    others = sum(i != lost and (task.mode in ONWARDS or task.pushes) for i, task in enumerate(body.tasks))
     lose = surely or others < 2 or not _bears(climber, lost)  # a body that hangs on one hook swings at once
     for i, task in enumerate(body.tasks):
-        off = task.doing not in ONWARDS and not (lose and task.pushes and _hook_on(climber, i, AT_HOLD))
+        off = task.mode not in ONWARDS and not (lose and task.pushes and _hook_on(climber, i, AT_HOLD))
         if off or (i == lost and lose):
             task.hold = 0
             task.stay(body.q[i])
@@ -125,7 +125,7 @@ def catch(climber: Climber, lost: int, *, surely: bool = False) -> Hang | None:
         for i in range(body.n):
             if i != on[0] and _pull_of(climber, i) > TOUCHES:
                 _hook_on(climber, i, CLOSE)
-        if not any(task.doing == "cling" for task in body.tasks):
+        if not any(task.mode == "unloaded_contact" for task in body.tasks):
             return hang
         climber.balance = None
         on = [i for i, task in enumerate(body.tasks) if task.hold]
@@ -147,7 +147,7 @@ def _bears(climber: Climber, i: int) -> bool:
     What pushes meanwhile, and may have lifted the body, pushes no more.
     """
     for task in climber.body.tasks:
-        if task.doing == "pull":
+        if task.mode == "contact_push":
             task.force, task.tug = np.zeros(2), np.zeros(2)
     felt, period = 0.0, climber.plant.period
     try:
@@ -183,7 +183,7 @@ def _snatch(climber: Climber, hang: Hang, lost: int) -> bool:
             body.tasks[i].force = SNATCH * along + lack * (SNATCH / max(size, AT_HOLD))
 
     for i in near:
-        body.tasks[i].doing, body.tasks[i].pressed = "pull", True
+        body.tasks[i].mode, body.tasks[i].pressed = "contact_push", True
     climber.balance = draw
     felt = dict.fromkeys(near, 0.0)
     caught = False
@@ -225,7 +225,7 @@ def _hook_on(climber: Climber, i: int, within: float) -> bool:
     near, task = _free_hold(climber, i, within), climber.body.tasks[i]
     if not near:
         return False
-    task.hold, task.place, task.doing = near, climber.holds[near].copy(), "cling"
+    task.hold, task.place, task.mode = near, climber.holds[near].copy(), "unloaded_contact"
     task.pressed, task.tug = False, np.zeros(2)
     return True
 

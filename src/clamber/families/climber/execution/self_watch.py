@@ -172,7 +172,7 @@ class SelfWatch:
         body, turned = self._body, []
         for pair in self._pairs:
             one, other = (body.tasks[i] for i in pair)
-            if one.doing != "hold" or other.doing != "hold":
+            if one.mode != "stance" or other.mode != "stance":
                 self._lines.pop(pair, None)
                 continue
             lines = _direction(body.tips, pair), _direction(body.settled_tips, pair)
@@ -196,7 +196,7 @@ class SelfWatch:
         for pair in self._pairs:
             a, b = pair
             one, other = body.tasks[a], body.tasks[b]
-            if one.doing not in ("hold", "cling") or other.doing not in ("hold", "cling"):
+            if one.mode not in ("stance", "unloaded_contact") or other.mode not in ("stance", "unloaded_contact"):
                 self._came.pop(pair, None)
                 continue
             shift = angle - float(body.pose[2])
@@ -238,11 +238,11 @@ class SelfWatch:
     def _dragged_limb(self, pairs: Sequence[tuple[int, int]]) -> int | None:
         """The limb that carries nothing and has moved against all that hold, which have not moved against each other."""
         tasks = self._body.tasks
-        holders = [i for i, task in enumerate(tasks) if task.doing == "hold"]
+        holders = [i for i, task in enumerate(tasks) if task.mode == "stance"]
         for i, task in enumerate(tasks):
             alone = all(i in pair for pair in pairs)
             from_all = all((min(i, k), max(i, k)) in pairs for k in holders)
-            if task.doing == "cling" and len(holders) > 1 and alone and from_all and i not in self._dragged:
+            if task.mode == "unloaded_contact" and len(holders) > 1 and alone and from_all and i not in self._dragged:
                 return i
         return None
 

@@ -64,7 +64,7 @@ class SlipWatch:
         for pair in self._pairs:
             a, b = pair
             one, other = body.tasks[a], body.tasks[b]
-            if one.doing not in ("hold", "cling") or other.doing not in ("hold", "cling"):
+            if one.mode not in ("stance", "unloaded_contact") or other.mode not in ("stance", "unloaded_contact"):
                 before.pop(pair, None)
                 continue
             now: list[float] = []

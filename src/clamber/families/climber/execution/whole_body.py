@@ -11,16 +11,16 @@ from ....control.law_settings import LawSettings
 from ....control.records import AXES
 from ....types import Floats
 from ..control import body_tick as at
+from ..control.backlash import weight_moment
 from ..control.body_estimate import ENCODER
-from ..control.body_tick import JOB, TABLE, command_tick, see_tick
+from ..control.body_tick import LIMB_TASK, TABLE, command_tick, see_tick
 from ..control.hook_forces import MOST_CUTS, pair_forces
 from ..control.limb_chain import chain_of_limb, legs_of
-from ..control.play import weight_moment
 from ..control.virtual_potential import repel_limbs
 from ..robot.robot import LimbedRobot
 from .body_gains import USUAL, BodyGains, records_of
 from .body_schemes import SCHEMES
-from .limb_task import DOING, LimbTask
+from .limb_task import LIMB_MODES, LimbTask
 from .postures import postures
 
 PLAY_TIME: Final = 0.2
@@ -32,7 +32,7 @@ STRETCHED: Final = math.radians(15.0)
 HANDING_OVER: Final = 0.4
 """Time in which the load passes from the limbs that carried to those that will [s]."""
 
-REPELLED: Final = ("tip", "joints")
+REPELLED: Final = ("swing_cartesian", "swing_joint")
 """What free limbs do that a virtual potential keeps off the body; one that pushes at a hold is steered by what it feels there."""
 MOST_REPELLED: Final = 3.0
 """Largest force of the potential over the robot's weight [-] (chosen): it stops a limb that comes at full speed, whose rotors are most
@@ -73,7 +73,7 @@ class WholeBody:
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
         self._states = np.zeros((1, 2, 2))
-        self.tasks = [LimbTask("joints") for _ in range(n)]
+        self.tasks = [LimbTask("swing_joint") for _ in range(n)]
         self.pose, self.twist = np.zeros(3), np.zeros(3)
         """Estimated body pose and speed, world frame."""
         self.aim, self.aim_speed = np.zeros(3), np.zeros(3)
@@ -98,9 +98,9 @@ class WholeBody:
         self._handed = 1.0
         self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2, period / LOAD_TIME))
-        self._jobs = np.zeros(n, JOB)
-        self._job = {name: self._jobs[name] for name in JOB.names or ()}
-        drives = np.array([[law.desk for law in laws] for laws in (self._pullers, self._reachers)])
+        self._jobs = np.zeros(n, LIMB_TASK)
+        self._job = {name: self._jobs[name] for name in LIMB_TASK.names or ()}
+        drives = np.array([[law.buffers for law in laws] for laws in (self._pullers, self._reachers)])
         self._arrays = {
             at.LEGS: self.legs, at.SETTINGS: records_of(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
             at.Q: self.q, at.QD: self.qd, at.LAGGED: np.zeros((n, 2)), at.HELD: self.held,
@@ -158,9 +158,9 @@ class WholeBody:
         A hand-over that is still going on is over: all its limbs carry when this one begins.
         """
         self._handed = 1.0
-        now = [i for i in range(self.n) if self.tasks[i].doing == "hold"]
+        now = [i for i in range(self.n) if self.tasks[i].mode == "stance"]
         for i in carriers:
-            self.tasks[i].doing = "hold"
+            self.tasks[i].mode = "stance"
         if not now or set(now) == set(carriers):
             return
         for row, limbs in zip(self._carriers, (now, carriers), strict=True):
@@ -170,7 +170,7 @@ class WholeBody:
     def carry_at_once(self, carriers: Collection[int]) -> None:
         """Let the load jump to these limbs: for where another has lost it already."""
         for i in carriers:
-            self.tasks[i].doing = "hold"
+            self.tasks[i].mode = "stance"
         self._handed = 1.0
 
     def stands(self, pose: Floats, carriers: Sequence[int] | None = None) -> float:
@@ -181,7 +181,7 @@ class WholeBody:
             carriers: Limbs on holds; None: those that carry now.
         """
         if carriers is None:
-            carriers = [i for i, task in enumerate(self.tasks) if task.doing == "hold"]
+            carriers = [i for i, task in enumerate(self.tasks) if task.mode == "stance"]
         q, arms, forces = self.q.copy(), np.zeros((self.n, 2)), np.zeros((self.n, 2))
         for i in carriers:
             side = self.q[i, 1] - self.play[i, 1]
@@ -215,7 +215,7 @@ class WholeBody:
             if self._handed == 1.0:
                 for i, task in enumerate(self.tasks):
                     if self.held[i] and not self._carriers[1, i]:
-                        task.doing, self.held[i] = "cling", 0
+                        task.mode, self.held[i] = "unloaded_contact", 0
         if self.handing_over:
             part = self._part()
             before, after = self._carriers
@@ -277,13 +277,13 @@ class WholeBody:
         """
         job = self._job
         for i, task in enumerate(self.tasks):
-            doing = task.doing
-            job["doing"][i], job["pressed"][i] = DOING[doing], task.pressed
-            if doing in ("tip", "cling"):
+            mode = task.mode
+            job["mode"][i], job["pressed"][i] = LIMB_MODES[mode], task.pressed
+            if mode in ("swing_cartesian", "unloaded_contact"):
                 job["place"][i], job["speed"][i] = task.place, task.speed
-            elif doing == "pull":
+            elif mode == "contact_push":
                 job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
-            elif doing in ("joints", "hang"):
+            elif mode in ("swing_joint", "hang"):
                 job["angles"][i], job["rates"][i] = task.angles, task.rates
                 job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
         bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
@@ -293,10 +293,10 @@ class WholeBody:
             if task.side:
                 self.torques[i, 1] += task.side * STOP * max(0.0, 1.0 - task.side * self.q.item(i, 1) / BENT)
         if self.gains.potential > 0.0:
-            self._free[:] = [task.doing in REPELLED for task in self.tasks]
+            self._free[:] = [task.mode in REPELLED for task in self.tasks]
             repel_limbs(self.legs, self.q, self._free, self._outline, self._skin, self._field, self.torques, self.gaps)
         if self._scheme is not None:
-            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.doing == "hold"])
+            self._scheme.hold(self, [i for i, task in enumerate(self.tasks) if task.mode == "stance"])
         return self.torques
 
     def _complain(self, bad: int) -> None:
@@ -304,4 +304,4 @@ class WholeBody:
         own = self._aim.copy()
         for i, aim in [*((i, still_aim((0.0, 0.0))) for i in range(self.n)), (bad, own)]:
             self._states[0] = self.q[i], self.qd[i]
-            (self._pullers if self.tasks[i].doing == "hold" else self._reachers)[i].command(aim, self._states)
+            (self._pullers if self.tasks[i].mode == "stance" else self._reachers)[i].command(aim, self._states)

@@ -26,7 +26,7 @@ from ....viewing.browser.inputs import (
 )
 from ....viewing.browser.panel_html import message_html
 from ....viewing.scene import length_unit
-from ..execution.here import GENERATORS, hold_document
+from ..execution.remaining_task import GENERATORS, hold_document
 from ..planning.task import FREE, LimbedTask
 from ..world.board import Hold
 from .space import WallScene, in_space, on_wall

@@ -13,7 +13,7 @@ from ....viewing.output import drawing
 from ....viewing.style import LAW_COLOURS, MATCH_LINES, WANTED, bare
 from ..trials.body_bench import SLOT, BodyEntry, BodyRun
 from ..trials.body_stand import BodyScenario
-from ..trials.press import Pressed
+from ..trials.hold_force import Pressed
 
 MILLI: Final = 1e3
 COORDINATED: Final = "#8C564B"
@@ -54,7 +54,7 @@ def draw_body_circles(laps: Mapping[str, tuple[BodyScenario, Sequence[BodyRun]]]
 
     Args:
         laps: Heading of a row -> its scenario and runs, the same controls for each.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     count = len(next(iter(laps.values()))[1])
     angle = np.linspace(0.0, 2 * np.pi, 181)
@@ -88,7 +88,7 @@ def draw_body_times(
     Args:
         columns: Heading -> runs.
         title: Of the picture.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
         from_aim: Whether y is told from the aim, else from where the aim began.
     """
     names = ("x [mm]", "y off the aim [mm]" if from_aim else "y [mm]", "angle [deg]", "tip off its peg [mm]")
@@ -168,7 +168,7 @@ def draw_onsets(
         gains: Kpx.
         swings: Held, place by, backlash [deg], play -> peak to peak along x at each of them [mm].
         cycle: From which on the body counts as cycling [mm].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     places = list(dict.fromkeys(place for _, place, _, _ in swings))
     colours = dict(zip(dict.fromkeys(b for _, _, b, _ in swings), style.PARTS, strict=False))
@@ -200,7 +200,7 @@ def draw_press(result: Pressed, path: str | Path) -> None:
 
     Args:
         result: From `run_press`.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 5.0)) as figure:
         force, body = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))

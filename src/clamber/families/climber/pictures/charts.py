@@ -9,12 +9,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
+from ....shown_units import SI, ShownUnits
 from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.style import bare, styled
 from ..trials.noise import NOISE
 from ..trials.sensitivity import VERDICTS, Effect
-from ..trials.trial_summary import TrialSummary
+from ..trials.trial_summary import Spread, TrialSummary
 
 APART: Final = 0.05
 """Least distance of two names, as a part of the height."""
@@ -25,7 +26,7 @@ def draw_cones(lengths: Mapping[str, Mapping[float, int | None]], path: str | Pa
 
     Args:
         lengths: Board -> half angle of the cone [deg] -> actions of the shortest plan, None where there is none.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 4.8)) as figure:
         axes = figure.subplots()
@@ -77,29 +78,35 @@ ACROSS: Final = 3
 """Keys of the noise beside each other."""
 MOST_CAUSES: Final = 8
 """Bars; rarer causes are left to the table."""
+SPREAD: Final = 0.75
+"""Of a line that shows a spread [in]."""
 HEIGHT: Final = 1.8
 """Of a row of panels [in]."""
 
 
-def draw_trials(summary: TrialSummary, path: str | Path) -> None:
-    """Draw how often climbs succeed, by each key of the noise, and why they fail.
+def draw_trials(summary: TrialSummary, path: str | Path, units: ShownUnits = SI) -> None:
+    """Draw how often climbs succeed, by each key of the noise, and why they fail; of climbs that all did, what was measured.
 
     Args:
         summary: Of one climb or more.
         path: Of the picture (`drawing`).
+        units: In which it is told.
     """
     check_suffix(path, CANVASES)
     with styled():
-        save_figure(trials_figure(summary), path)
+        save_figure(trials_figure(summary, units), path)
 
 
-def trials_figure(summary: TrialSummary) -> Figure:
+def trials_figure(summary: TrialSummary, units: ShownUnits = SI) -> Figure:
     """The picture as a figure."""
-    rows = -(-len(summary.effects) // ACROSS)
+    effects = () if summary.n and summary.done == summary.n else summary.effects  # all succeeded, whatever was drawn
+    spreads = () if effects else _spreads(summary, units)
+    rows = -(-len(effects) // ACROSS)
     causes = summary.causes[:MOST_CAUSES]
     low = 0.8 + 0.24 * max(1, len(causes))
-    figure = Figure(figsize=(7.6, 0.8 + HEIGHT * rows + low), layout="constrained")
-    upper, lower = np.ravel(np.array(figure.subfigures(2, 1, height_ratios=(max(HEIGHT * rows, 0.01), low))))
+    high = HEIGHT * rows + SPREAD * len(spreads)
+    figure = Figure(figsize=(7.6, 0.8 + high + low), layout="constrained")
+    upper, lower = np.ravel(np.array(figure.subfigures(2, 1, height_ratios=(max(high, 0.01), low))))
     if summary.n:
         share = (100.0 * part for part in (summary.done / summary.n, *summary.interval))
         words = "{:.1f} % ({:.1f} to {:.1f} %, 95 %)".format(*share)
@@ -109,12 +116,39 @@ def trials_figure(summary: TrialSummary) -> Figure:
     figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
     panels: list[Axes] = list(np.ravel(upper.subplots(rows, ACROSS, sharey=True, squeeze=False))) if rows else []
     for k, panel in enumerate(panels):
-        if k < len(summary.effects):
-            _draw_effect(panel, summary.effects[k], summary, first=k % ACROSS == 0)
+        if k < len(effects):
+            _draw_effect(panel, effects[k], summary, first=k % ACROSS == 0)
         else:
             panel.set_visible(False)
+    for axes, (words, scale, unit, spread) in zip(
+        np.ravel(upper.subplots(len(spreads), 1, squeeze=False)) if spreads else (), spreads, strict=True
+    ):
+        _draw_spread(axes, words, scale, unit, spread)
     _draw_causes(lower.subplots(), summary)
     return figure
+
+
+def _spreads(summary: TrialSummary, units: ShownUnits) -> tuple[tuple[str, float, str, Spread], ...]:
+    """What was measured of climbs that were carried out: in words, in which unit, of what size."""
+    small, size, _ = units.gap
+    found = (
+        ("time of a climb", 1.0, "s", summary.seconds),
+        ("time for each 6 in of the body's way", 1.0, "s", summary.per_rung),
+        ("how far the body ended off its goal", size, small, summary.short),
+    )
+    return tuple((words, scale, unit, spread) for words, scale, unit, spread in found if spread is not None)
+
+
+def _draw_spread(axes: Axes, words: str, scale: float, unit: str, spread: Spread) -> None:
+    """The middle of what was measured, and what all but 5 % at either end are between."""
+    low, middle, high = (value / scale for value in (spread.low, spread.median, spread.high))
+    axes.plot([low, high], [0.0, 0.0], color=style.PARTS[0], lw=2.2, solid_capstyle="butt", marker="|", ms=9)
+    axes.plot([middle], [0.0], color=style.PARTS[0], ls="none", marker="o", ms=5.0)
+    axes.set_title(f"{words} [{unit}]: median {middle:.3g}, 90 % between {low:.3g} and {high:.3g}", fontsize=9)
+    axes.set_xlim(0.0, max(1.1 * high, 1.0))
+    axes.set_yticks([])
+    style.bare(axes)
+    axes.spines["left"].set_visible(False)
 
 
 def _draw_effect(axes: Axes, effect: Effect, summary: TrialSummary, *, first: bool) -> None:

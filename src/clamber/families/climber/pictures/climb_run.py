@@ -2,14 +2,14 @@
 
 import cmath
 from dataclasses import dataclass, replace
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from ....types import Floats
 from ....viewing import style
-from ....viewing.film import Film, MarginRow, Part, View
+from ....viewing.recording import MarginRow, Part, Recording, View
 from ....viewing.route import draw_way, label_ghost, pick_ghosts
 from ....viewing.scene import describe_pose
 from ....viewing.view import Picture
@@ -83,7 +83,12 @@ class ClimbFilm(View[Moment]):
         draw_scene(picture.wall, self.task, self.bounds)
         if self._pegs is not None:
             x, y = self._pegs.T
-            picture.wall.plot(x, y, ls="none", marker="x", ms=3.0, mew=0.7, color=style.ALERT, zorder=9)
+            cross: dict[str, Any] = {"ls": "none", "marker": "x", "mew": 0.7, "color": style.ALERT, "zorder": 9}
+            picture.wall.plot(x, y, ms=3.0, **cross)
+            left, y_key = picture.key.left, picture.key.top
+            picture.panel.plot([left + 0.06], [y_key], ms=5.0, **cross)
+            words = "peg as it truly is; dots: as it is mapped"
+            picture.panel.text(left + 0.2, y_key, words, fontsize=7, va="center", color=style.QUIET)
         return ClimberArtists(picture.wall, self.task, self.bounds)
 
     def posture(self, k: int) -> Posture:
@@ -107,7 +112,7 @@ class ClimbFilm(View[Moment]):
         return Moment(self.posture(k), np.zeros_like(torques), torques, float(self.trace.time[k]))
 
     def at(self, time: float) -> Moment:
-        """See `Film`."""
+        """See `Recording`."""
         return replace(self.at_time(time), forces=self._forces(time))
 
     def _forces(self, time: float) -> Floats:
@@ -167,7 +172,7 @@ class ClimbFilm(View[Moment]):
         return step > 0 and self.actions[step - 1].outcome != "ok"
 
     def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
-        """See `Film`: the moment, and what was reported of the step."""
+        """See `Recording`: the moment, and what was reported of the step."""
         told = list(zip(self.rows, self.lines(step, at), strict=True))
         if step:
             action = self.actions[step - 1]
@@ -185,16 +190,16 @@ class ClimbFilm(View[Moment]):
         return tuple(told)
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`: nothing judges a run."""
+        """See `Recording`: nothing judges a run."""
         return []
 
     @property
     def worst(self) -> int | None:
-        """See `Film`."""
+        """See `Recording`."""
         return 1 + int(np.argmin(self.grades[1:])) if len(self.grades) > 1 and min(self.grades[1:]) < 3 else None
 
-    def planned_time(self, time: float, plan: Film[Moment]) -> float | None:
-        """See `Film`: as far in the same action; None after another plan took its place."""
+    def planned_time(self, time: float, plan: Recording[Moment]) -> float | None:
+        """See `Recording`: as far in the same action; None after another plan took its place."""
         step = self.step_at(time)
         if step == 0:
             return 0.0

@@ -12,9 +12,9 @@ from matplotlib.axes import Axes
 from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
-from ....viewing.film import Part, PlanView
-from ....viewing.scene import DIRECTIONS, describe_pose, length_unit
-from ....viewing.view import Picture
+from ....viewing.recording import Part, PlanView
+from ....viewing.scene import DIRECTIONS, describe_pose, fit_bounds, length_unit
+from ....viewing.view import CloseUp, Picture
 from ..planning.arrays import CHECKS
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb, LimbedRobot
@@ -301,6 +301,19 @@ def settle(task: LimbedTask, stance: np.void, posture: Posture) -> Snapshot:
     """A settled stance, as it is drawn, with its loads."""
     n = len(task.robot.limbs)
     return Snapshot(posture, np.array(stance["force"][:n]), np.array(stance["torques"][:n]))
+
+
+def near_climb(task: LimbedTask, stance: np.void) -> CloseUp:
+    """One stance with the part of the wall about it."""
+    at = settle(task, stance, stance_posture(task.robot, task.world, stance))
+    points = (at.posture.outline, at.posture.chains.reshape(-1, 2), arrow_ends(task, at))
+    bounds = fit_bounds(np.vstack(points), ())
+
+    def draw(axes: Axes) -> None:
+        draw_scene(axes, task, bounds)
+        ClimberArtists(axes, task, bounds).update(at)
+
+    return CloseUp(bounds, draw)
 
 
 def draw_climb(task: LimbedTask, stance: np.void, axes: Axes) -> None:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
@@ -27,7 +27,7 @@ from ..trials.run_plan import ClimbRun
 from .alone import board_alone, climber_alone
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
 from .climb_run import ClimbFilm, run_picture
-from .climb_view import ClimbView, Transition, draw_climb
+from .climb_view import ClimbView, Transition, draw_climb, near_climb
 from .geometry import Posture, postures
 from .report import climb_page
 
@@ -135,7 +135,7 @@ def climb_route(task: LimbedTask, replay: Replay) -> Figure:
     _draw_ghosts(wall, task, shown, bounds)
     draw_way(wall, body_way(task, replay))
     height = layout.panel[1]
-    write_facts(panel, replay, yardsticks_of(task), _facts(task, replay), height)
+    write_facts(panel, replay, normalisation_of(task), _facts(task, replay), height)
     _write_uses(panel, uses, *((PANEL_WIDTH + 0.4, height) if layout.below else (0.0, height - FACTS)))
     layout.fix_panel(panel)
     return figure
@@ -226,6 +226,7 @@ PICTURES: Final = Pictures(
     torque_limits,
     run_picture,
     climb_page,
+    near=near_climb,
     robot_alone=climber_alone,
     world_alone=board_alone,
 )

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import normalisation_of
 from ....planning.problem.verdict import Verdict, check_plan
 from ....units import DEGREE
 from ....viewing.margins import named_limits
@@ -66,7 +66,7 @@ def _noisy(notes: dict[str, object]) -> bool:
 
 
 def _plan_rows(verdict: Verdict, run: ClimbRun) -> Rows:
-    sticks, rows = yardsticks_of(run.task), []
+    sticks, rows = normalisation_of(run.task), []
     for row in verdict.per_step:
         limits = named_limits(sticks, row.margins)
         rows.append((row.step, row.action.title, str(limits[0]) if limits else ""))
@@ -77,7 +77,7 @@ def _margins(verdict: Verdict, run: ClimbRun) -> list[tuple[str, str, str]]:
     """The checks that the plan comes nearest to."""
     tightest, rows = verdict.tightest(), []
     least = {name: margin for name, (margin, _) in tightest.items()}
-    for limit in named_limits(yardsticks_of(run.task), least)[:CHECKS_TOLD]:
+    for limit in named_limits(normalisation_of(run.task), least)[:CHECKS_TOLD]:
         step = tightest[limit.check.name][1]
         rows.append(("plan, least margin", str(limit), f"step {step}: {verdict.per_step[step - 1].action.title}"))
     return rows

@@ -9,17 +9,17 @@ import numpy as np
 
 from ....execution.log import Log, LogError
 from ....execution.sample_log import told_of
-from ....planning.problem.plan import Plan
 from ....planning.progress import Listener
 from ....tasks.library import task_names
-from ....viewing.browser.exhibit import NAMED, Editor, Exhibit, Planned, Scenes
+from ....trials.dynamics import RunEvents
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.browser.viewer_content import NAMED, Editor, Planned, Scenes, ViewerContent
 from ....viewing.scene import Bounds, join
 from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
+from ..trials.plan_validation import validations
 from ..trials.planning import plan_to_climb
-from ..trials.rehearsal import Rehearsal, rehearse
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_editor import BoardPanel
 from .climb_run import ClimbFilm, run_film
@@ -28,7 +28,7 @@ from .space import ClimberFigure, WallScene
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.stage import Stage
+    from ....viewing.browser.scene_view import SceneView
     from ....viewing.browser.work_panel import Tell
 
 ASIDE: Final = (-0.38, 0.12)
@@ -71,11 +71,11 @@ class ClimbScenes(Scenes):
         """See `Scenes`."""
         return ClimbScenery(bounds, task)
 
-    def run_film(self, exhibit: Exhibit, run: ClimbRun) -> ClimbFilm:
+    def run_film(self, exhibit: ViewerContent, run: ClimbRun) -> ClimbFilm:
         """See `Scenes`."""
         return run_film(run)
 
-    def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
+    def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
         """See `Scenes`."""
         task, trace = exhibit.task, ClimbTrace.from_log(log)
         if trace.limbs != task.robot.limb_names:
@@ -93,7 +93,7 @@ class ClimbScenes(Scenes):
         return str(name) if name in task_names() else ""
 
     def editor(
-        self, server: "viser.ViserServer", task: LimbedTask, stage: "Stage", changed: Callable[[Any], None]
+        self, server: "viser.ViserServer", task: LimbedTask, stage: "SceneView", changed: Callable[[Any], None]
     ) -> Editor:
         """See `Scenes`."""
 
@@ -114,11 +114,8 @@ class ClimbScenes(Scenes):
         strict = climbing_task(task)
         flaws = climbing_flaws(strict, ())
 
-        def rehearsed(task: LimbedTask, plan: Plan) -> Rehearsal:
-            tell(f"rehearsing a plan of {len(plan.actions)} actions in simulation")
-            return rehearse(task, plan, flaws)
-
-        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, rehearse=rehearsed)
+        events = RunEvents(step=lambda words, share: tell(words))
+        kept = plan_to_climb(strict, planner, seconds=seconds, seed=0, validate_plan=validations(flaws, events))
         if kept is None:
             reach = f"there is a plan of {len(found.plan.actions)} actions"
             return Planned(None, f"{reach}, but none that keeps reserves for a run, or that hooks can be trusted with")

@@ -175,19 +175,14 @@ class ClimberFigure(Figure):
     def __init__(self, server: "viser.ViserServer", name: str, task: LimbedTask, opacity: float = 1.0) -> None:
         super().__init__(server, name, opacity)
         self._task, robot, r = task, task.robot, link_radius(task)
-        self._radius, self._grade = r, 3
+        self._radius = r
         self._depths = r * (LIMBS + 0.5 * (np.arange(len(robot.limbs)) % 2))
         self._limits = torque_limits(task).ravel()
         outline = body_outline(robot)
         corners = np.stack((outline.real, outline.imag), axis=-1)
-        self._body = server.scene.add_mesh_simple(
-            f"{name}/body", *prism(corners, BODY[0] * r, BODY[1] * r), color=colour(GRADES[3]), flat_shading=True,
-            opacity=opacity if self._ghost else None, cast_shadow=not self._ghost,
-        )  # fmt: skip
-        top = 0.5 * float(np.ptp(corners, axis=0).min()) * 0.5
-        up = in_space(np.array([[(0.0, 0.0), (0.0, top)]]), 0.0)[..., [0, 2, 1]]
-        up[..., 2] = BODY[1] * r
-        self.sticks("body/up", [colour(style.INK)], [0.22 * r]).put(up)
+        self._body = self.rigid("body", prism(corners, BODY[0] * r, BODY[1] * r), colour(GRADES[3]), flat=True)
+        self._top = 0.25 * float(np.ptp(corners, axis=0).min())
+        self._up = self.sticks("up", [colour(style.INK)], [0.22 * r])
         paint = [colour(style.PARTS[i % len(style.PARTS)]) for i in range(len(robot.limbs))]
         # of each limb: both links, the way from the second to the tip, and the end effector
         sizes = [r, 0.8 * r, 0.3 * r, *([0.3 * r] * GRIP_POINTS)]
@@ -201,11 +196,13 @@ class ClimberFigure(Figure):
     def show(self, at: Snapshot, grade: int = 3) -> None:
         """Put everything where a moment has it; the body takes the colour of a grade."""
         posture = at.posture
-        self._body.position = tuple(in_space(np.array((posture.x, posture.y)), 0.0))
-        self._body.wxyz = turned(posture.angle)
-        if grade != self._grade and not self._ghost:
-            self._grade = grade
-            self._body.color = colour(GRADES[grade])
+        centre = np.array((posture.x, posture.y))
+        self.middle = in_space(centre, BODY[1] * self._radius)
+        self._body.put(in_space(centre, 0.0), turned(posture.angle))
+        above = centre + self._top * np.array((-math.sin(posture.angle), math.cos(posture.angle)))
+        self._up.put(in_space(np.stack((centre, above)), BODY[1] * self._radius)[None])
+        if not self._ghost:
+            self._body.paint(np.array([colour(GRADES[grade])], np.uint8))
         chains = self._chains(posture)
         self._links.put(np.concatenate([self._limb_sticks(i, chains[i], posture) for i in range(len(chains))]))
         self._joints.put(chains[:, :3].reshape(-1, 3), None if self._ghost else self._hot(at.torques))

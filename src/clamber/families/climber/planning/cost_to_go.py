@@ -10,7 +10,7 @@ from ..statics.stance import HOOK, POWER, TORQUE, judge
 from .goals import fits
 from .step import copy_stance
 
-BURDENS = ("torque_Nm", "torque_share", "payload_N", "power_W")
+STANCE_COSTS = ("torque_Nm", "torque_share", "payload_N", "power_W")
 """Largest joint torque, the largest share of a joint's limit, the extra weight that the stance still carries, power."""
 PRECISION = 1.0e-3
 """Of a factor on the weight that is found by bisection, as a share of it [-]."""
@@ -19,7 +19,7 @@ HEAVIEST = 1.0e4
 
 
 @inlined
-def spot(p, s, words):
+def body_pose(p, s, words):
     """Where a stance is: the body's pose in ticks, the hold of each limb."""
     words[0] = s.ix
     words[1] = s.iy
@@ -29,14 +29,14 @@ def spot(p, s, words):
 
 
 @kernel
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether a stance is where goal k asks for; turns are not asked."""
     return fits(p, s, goals(p)[k])
 
 
 @kernel
-def burden(p, s, spare, margins, row):
-    """Write `BURDENS` of a judged stance; not a number where no split of the weight exists.
+def stance_cost(p, s, spare, margins, row):
+    """Write `STANCE_COSTS` of a judged stance; not a number where no split of the weight exists.
 
     The payload is (f - 1) W: the robot may weigh f times as much before a joint reaches its torque limit or a hard check breaks. Forces
     and torques are proportional to the weight (page "The reachable space"), and power to its square, so

@@ -13,11 +13,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....interrupts import answer
 from ....kernel_cache import is_compiled
-from ....planning.openings.find import Opening, Places
-from ....planning.openings.trial import Answer, Trial
-from ....planning.problem.problems import pose_problem, yardsticks_of
-from ....planning.reach.flood import flood
+from ....planning.infeasibility.find import FeasibleRelaxation, Places
+from ....planning.infeasibility.trial import Answer, Trial
+from ....planning.problem.problems import normalisation_of, plan_family, pose_problem
+from ....planning.reach.exploration import explore_breadth_first
 from ....toml_text import toml_value
 from ....types import Floats
 from ....units import UNITS, split_quantity
@@ -75,7 +76,10 @@ def find_places(
 def _reached(task: LimbedTask, trial: Trial, threads: int) -> Floats | None:
     """Poses of the body that can be reached: x, y [m], angle [rad], shape (n, 3); None if they were not all seen."""
     problem = pose_problem(task, threads=1).problem
-    see = partial(flood, problem, yardsticks_of(task), holds=len(task.world.holds), threads=threads)
+    lattice = plan_family(task).lattice(task, problem)
+    see = partial(
+        explore_breadth_first, problem, normalisation_of(task), lattice, holds=len(task.world.holds), threads=threads
+    )
     if not is_compiled("spread"):  # compiling is not to count
         see(most_stances=2 * problem.branching)
         trial.grant(SHARE)
@@ -85,9 +89,7 @@ def _reached(task: LimbedTask, trial: Trial, threads: int) -> Floats | None:
     if seen.ended:
         return None
     steps = seen.poses[seen.notes["stances"] > 0]
-    size = (task.step.length, task.step.length, task.step.angle)
-    start = (task.start.x, task.start.y, task.start.theta)
-    poses: Floats = np.array(start) + steps * np.array(size)
+    poses: Floats = lattice.origin + steps * lattice.step
     return poses
 
 
@@ -130,6 +132,7 @@ def _settle(
             for site, future in zip(sites, asked, strict=True):
                 answers.append((site, future.result()))
         except KeyboardInterrupt:
+            answer()
             trial.stopped.set()
             pool.shutdown(cancel_futures=True)
     return answers, trial.stopped.is_set()
@@ -169,9 +172,9 @@ def _company(site: _Site, found: set[tuple[int, int]]) -> int:
     return sum((site.column + i, site.row + j) in found for i in (-1, 0, 1) for j in (-1, 0, 1))
 
 
-def _opening(task: LimbedTask, site: _Site, answer: Answer) -> Opening:
+def _opening(task: LimbedTask, site: _Site, answer: Answer) -> FeasibleRelaxation:
     x, y = _written(task, site)
-    return Opening(
+    return FeasibleRelaxation(
         key="board.added",
         before=None,
         after=f"at {x}, {y}",

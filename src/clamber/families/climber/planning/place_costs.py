@@ -5,7 +5,7 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ....planning.problem.arrays import WayFields
+from ....planning.problem.arrays import CostToGoMap
 from ....types import Floats
 from .task import Goal, LimbedTask
 
@@ -19,7 +19,7 @@ SPARSE: Final = 2.0
 """A place with n holds in reach costs 1 + SPARSE / n: more holds, more ways to go on."""
 
 
-def way_fields(task: LimbedTask) -> WayFields:
+def way_fields(task: LimbedTask) -> CostToGoMap:
     """The map of a task: shortest ways along x and y over places, dearer where few holds are in reach.
 
     Args:
@@ -55,7 +55,7 @@ def way_fields(task: LimbedTask) -> WayFields:
         inside = _inside(task.goals[index], places, task, points).reshape(rows, columns)
         after[index] = after[index + 1] + fields[index + 1][inside].max()
     holds = fields[:, here[:, 1], here[:, 0]]
-    return WayFields(np.array([*low, grain]), fields, np.ascontiguousarray(holds), after)
+    return CostToGoMap(np.array([*low, grain]), fields, np.ascontiguousarray(holds), after)
 
 
 def _graph(cost: Floats, rows: int, columns: int) -> object:

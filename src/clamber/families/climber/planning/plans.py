@@ -32,7 +32,7 @@ class LimbedPlans(PlanFamily):
     """How plans of limbed climbers are named, replayed and reported."""
 
     checks = LIMBED_CHECKS
-    burdens = LimbedProblem.burdens
+    stance_costs = LimbedProblem.stance_costs
 
     def posed(self, task: LimbedTask, threads: int | None, filters: bool) -> Posed:
         """The task as a problem with the hard checks alone, its inventory filtered if asked for."""
@@ -115,7 +115,7 @@ class LimbedPlans(PlanFamily):
         """The thesis's number of a module where it has one, words otherwise."""
         return module_name(task, code)
 
-    def pose(self, stance: np.void) -> tuple[float, float, float]:
+    def pose(self, task: LimbedTask, stance: np.void) -> tuple[float, float, float]:
         """Place [m] and angle [rad] of the body, world frame."""
         return float(stance["x"]), float(stance["y"]), float(stance["angle"])
 

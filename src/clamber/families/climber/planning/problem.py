@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....errors import StartError
-from ....planning.problem.arrays import ActionTable, Params, WayFields
+from ....planning.problem.arrays import ActionTable, CostToGoMap, Params
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import ARGUMENT_MASK, MOVE, NEAREST, NONE, RANDOM, RELEASE, Code, pack
 from ....planning.problem.codes import HOLD as HOLD_KIND
@@ -22,13 +22,13 @@ from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE
 from .arrays import CHECKS, limbed_params
-from .cost_to_go import BURDENS, aims, burden, spot
+from .cost_to_go import STANCE_COSTS, body_pose, satisfies_goal, stance_cost
 from .goals import FEATURES, done, measure
 from .inventory import most_in_reach, whole_kinds
 from .keys import bound, candidates, cell, key, key_length, restore
 from .place_costs import way_fields
 from .relaxed import with_bound
-from .stance_pairs import freer, reflect, toward
+from .stance_pairs import dominating, heuristic_between, reflect
 from .step import step
 from .symmetry import mirrored_code, with_mirror
 from .task import LimbedTask
@@ -44,21 +44,21 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
-    freer=freer,
+    dominating=dominating,
     reflect=reflect,
     done=done,
     cell=cell,
-    spot=spot,
-    aims=aims,
-    burden=burden,
-    toward=toward,
+    body_pose=body_pose,
+    satisfies_goal=satisfies_goal,
+    stance_cost=stance_cost,
+    heuristic_between=heuristic_between,
 )
 
 
 class LimbedProblem(CompiledProblem):
     """A limbed climber's task, ready for planners."""
 
-    burdens = BURDENS
+    stance_costs = STANCE_COSTS
 
     def __init__(
         self, task: LimbedTask, actions: ActionTable, *, every_check: bool = False, threads: int | None = None
@@ -105,7 +105,7 @@ class LimbedProblem(CompiledProblem):
             else "rules.allowed names single grabs or releases; exact search takes them as kinds: grab, release"
         )
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         """The map of the wall."""
         return way_fields(self.task)
 
@@ -156,15 +156,15 @@ class LimbedProblem(CompiledProblem):
         """Whether a stance has met every goal."""
         return bool(stance["stage"][0] >= len(self.task.goals))
 
-    def wander(self) -> tuple[Params, Records]:
+    def without_goals(self) -> tuple[Params, Records]:
         """As in every family; laps aren't counted, or a ring would have no last stance."""
-        params, start = super().wander()
+        params, start = super().without_goals()
         params.record["circles"] = 0
         start["laps"], start["bearing"] = 0, 0.0
         return params, start
 
     @property
-    def spot_words(self) -> int:
+    def pose_words(self) -> int:
         """The body's pose and a hold for each limb."""
         return 3 + len(self.task.robot.limbs)
 

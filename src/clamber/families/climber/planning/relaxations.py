@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import Final
 
 from ....files import Document
-from ....planning.openings.relaxations import Relaxation, Switch, key_dial
+from ....planning.infeasibility.relaxations import Relaxation, Switch, key_dial
 from ....toml_text import toml_value
 from ....units import DEGREE
 from .inventory import DIRECTIONS, whole_kinds

@@ -13,8 +13,8 @@ from typing import Final
 
 from ....files import Document
 from ....planning.exact.costs import Aim
-from ....planning.openings.relaxations import Dial, key_dial
-from ....planning.openings.trial import Answer, Trial
+from ....planning.infeasibility.relaxations import Dial, key_dial
+from ....planning.infeasibility.trial import Answer, Trial
 from ....planning.problem.problems import plan_family
 from ....units import DEGREE, OZ_IN
 from .task import LimbedTask

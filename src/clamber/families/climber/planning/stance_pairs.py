@@ -14,7 +14,7 @@ from .step import copy_stance
 
 
 @kernel
-def toward(p, s, t):
+def heuristic_between(p, s, t):
     """An admissible, consistent number of actions from a stance to another's key.
 
     A body move changes one coordinate by one step and no hold; a grab or a release changes the hold of one limb, which is then the one in
@@ -37,7 +37,7 @@ def toward(p, s, t):
 
 
 @kernel
-def freer(p, s, which, t):
+def dominating(p, s, which, t):
     """Write the stance number `which` that is at least as free as `s`; False if there is none of that number.
 
     All of them have the pose, holds and branches of `s`, so every action is judged alike there. They differ in one thing:

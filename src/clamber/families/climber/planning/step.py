@@ -57,7 +57,7 @@ def copy_stance(n, s, t):
 
 
 @inlined
-def let_go(p, s, i):
+def release_limb(p, s, i):
     """Limb i releases: its foot stays where it is, in the body frame."""
     hold = holds(p)[s.hold[i]]
     dx = hold.x - s.x
@@ -193,7 +193,7 @@ def act(p, before, code, after, margins):
         return settle(p, after, holders, -1, True, margins)
     if kind == RELEASE:
         if after.hold[i] >= 0:
-            let_go(p, after, i)
+            release_limb(p, after, i)
         return settle(p, after, holders, -1, False, margins)
     if kind == HOLD and before.hold[i] == argument:
         after.in_use = i
@@ -203,7 +203,7 @@ def act(p, before, code, after, margins):
     if not p.atomic and before.hold[i] >= 0:
         others = holders - 1
         if others <= 1:
-            let_go(p, after, i)
+            release_limb(p, after, i)
             reason = settle(p, after, holders, -1, False, margins)
             if others == 0:
                 for check in range(N_CHECKS):

@@ -7,6 +7,7 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
+from ....notebook import Pictured
 from ....specs import Name, spec
 from ....tasks.regions import GoalBox
 from ....types import Json
@@ -166,7 +167,7 @@ class TaskSpec:
 
 
 @spec
-class LimbedTask:
+class LimbedTask(Pictured):
     """A task with everything resolved: SI units, free limbs placed, point goals as boxes."""
 
     name: str

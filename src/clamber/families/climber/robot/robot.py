@@ -11,6 +11,7 @@ from pydantic import Field, StrictStr
 
 from ....errors import UnknownNameError, describe_choices
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Floats
 from ....units import (
@@ -167,7 +168,7 @@ class Motor:
 
 
 @spec
-class LimbedRobot:
+class LimbedRobot(Pictured):
     """A limbed climber in SI units. Body frame: origin at the centre of gravity, x to the right, y up."""
 
     family: ClassVar[str] = "limbed"

@@ -16,7 +16,7 @@ from ....control.law_settings import FEELING, LAWS
 from ....errors import UnknownNameError
 from ....sim.plant_rules import PlantError
 from ....types import Floats
-from ..control.play import weight_loads
+from ..control.backlash import weight_loads
 from ..execution.body_gains import BodyGains
 from ..execution.limb_task import LimbTask
 from ..execution.whole_body import WholeBody
@@ -53,7 +53,7 @@ def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Fl
     places = {hold.number: np.array((hold.x, hold.y)) for hold in stand.board.holds}
     for i, limb in enumerate(stand.robot.limbs):
         number = stand.holds.get(limb.name, 0)
-        body.tasks[i] = LimbTask("hold", number, places[number].copy()) if number else LimbTask("joints")
+        body.tasks[i] = LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint")
     still = np.zeros((body.n, 2))
     body.aim[:] = aim
     # laws that remember joint angles begin at the aim
@@ -63,7 +63,7 @@ def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Fl
         torques = body.command()
     total, own = np.zeros(3), np.zeros(2)
     for i, task in enumerate(body.tasks):
-        if task.doing == "hold":
+        if task.mode == "stance":
             if gains.scheme == "body":  # which feeds each limb's own weight, too
                 own = np.array(weight_loads(body.legs[i], body.q[i], body.pose[2]))
             total += tip_wrench(body, i, torques[i] - own)

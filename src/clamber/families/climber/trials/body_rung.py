@@ -81,7 +81,7 @@ class WatchedClimber(TracedClimber):
         finally:
             assert self.truth is not None
             for tip, task in zip(self.truth().tips, self.body.tasks, strict=True):
-                if task.doing == "hold" and np.linalg.norm(tip - self.pegs[task.hold]) > SLOT:
+                if task.mode == "stance" and np.linalg.norm(tip - self.pegs[task.hold]) > SLOT:
                     self.lost = True
 
 

@@ -7,19 +7,20 @@ from typing import Final, TypeAlias
 import numpy as np
 
 from ....errors import StartError
+from ....interrupts import passed_on
 from ....planning.planners import PROVERS, accepts, find_planner
 from ....planning.problem.plan import Plan
 from ....planning.result import PlanResult
 from ....trials.dynamics import NoPlanError, RunEvents
 from ..execution.climbing import Replan
-from ..execution.course import lay_course
+from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
-from .cautions import CAUTIONS, Caution, cautious, steady
-from .rehearsal import Rehearsal
-from .rerouting import mended, without
-from .steadying import steadied
+from .plan_validation import PlanValidation
+from .planning_margins import PLANNING_MARGINS, PlanningMargins, steady, with_margins
+from .rerouting import repaired, without
+from .stretch_repair import with_stretch_repaired
 
-Rehearse: TypeAlias = Callable[[LimbedTask, Plan], Rehearsal]
+Rehearse: TypeAlias = Callable[[LimbedTask, Plan], PlanValidation]
 """Climbs by a plan before anything moves."""
 HARD: Final = 10.0
 """What counts against a plan that is hard, all its stances together."""
@@ -47,7 +48,7 @@ def plan_to_climb(
     seed: int,
     threads: int | None = None,
     events: RunEvents = QUIET,
-    rehearse: Rehearse | None = None,
+    validate_plan: Rehearse | None = None,
 ) -> Plan | None:
     """The most cautious plan that is easy to carry out and climbs, or one that has learned from its rehearsals, or the one that did best.
 
@@ -68,47 +69,46 @@ def plan_to_climb(
     def search(task: LimbedTask, planner: str) -> PlanResult | None:
         options = {name: value for name, value in stated.items() if accepts(planner, name)}
         try:
-            result = find_planner(planner)(task, **options)
+            with passed_on():  # planners answer with what they have, which would be climbed
+                result = find_planner(planner)(task, **options)
         except StartError:  # it stands where no such plan may begin
             return None
-        if "interrupted" in result.reason:
-            raise KeyboardInterrupt  # planners answer with what they have, which would be climbed
         if result.seconds >= seconds:
             events.cut()
         return result if result.has_plan else None
 
-    def found_with(caution: Caution, planner: str) -> Plan | None:
-        result = search(cautious(task, caution), planner)
+    def found_with(margins: PlanningMargins, planner: str) -> Plan | None:
+        result = search(with_margins(task, margins), planner)
         if result is None:
             return None
         # the same actions, for the robot and the board as they are
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         return None if lay_course(task, plan).objections else plan
 
-    def mended_with(caution: Caution, planner: str) -> Plan | None:
-        plan = found_with(caution, planner)
-        return None if plan is None else mended(task, plan, caution, seconds) or plan
+    def repaired_with(margins: PlanningMargins, planner: str) -> Plan | None:
+        plan = found_with(margins, planner)
+        return None if plan is None else repaired(task, plan, margins, seconds) or plan
 
-    easy, hard = _by_ease(task, lambda caution: found_with(caution, planner))
+    easy, hard = _by_ease(task, lambda margins: found_with(margins, planner))
     quick = QUICK if planner in PROVERS else planner
-    if rehearse is None:  # the robot waits
-        steadier = (found_with(caution, quick) for caution in steady(task))
+    if validate_plan is None:  # the robot waits
+        steadier = (found_with(margins, quick) for margins in steady(task))
         first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
-        first = _rehearsed(task, easy, hard, lambda caution: mended_with(caution, quick), rehearse)
+        first = _rehearsed(task, easy, hard, lambda margins: repaired_with(margins, quick), validate_plan)
     if first is not None:
         return first
     result = search(task, planner)
     return None if result is None else result.plan
 
 
-def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[list[Plan], list[Plan]]:
+def _by_ease(task: LimbedTask, find: Callable[[PlanningMargins], Plan | None]) -> tuple[list[Plan], list[Plan]]:
     """Plans of falling caution until one is easy in every stance, the easiest first: where one is nearly so, and where all are hard."""
     found: list[tuple[float, Plan]] = []
     seen: set[bytes] = set()
     least = math.inf
-    for rank, caution in enumerate(CAUTIONS):
-        plan = find(caution)
+    for rank, margins in enumerate(PLANNING_MARGINS):
+        plan = find(margins)
         if plan is None:
             continue
         codes = plan.codes(task).tobytes()
@@ -116,7 +116,7 @@ def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[
         if codes in seen:
             continue
         seen.add(codes)
-        own = float(np.maximum(course.against - EASY, 0.0).sum())
+        own = float(np.maximum(course.elbow_costs - EASY, 0.0).sum())
         least = min(least, own)
         found.append((own + (INCAUTIOUS * rank if own > 0.0 else 0.0), plan))
         if own == 0.0:
@@ -126,14 +126,18 @@ def _by_ease(task: LimbedTask, find: Callable[[Caution], Plan | None]) -> tuple[
 
 
 def _rehearsed(
-    task: LimbedTask, easy: list[Plan], hard: list[Plan], find: Callable[[Caution], Plan | None], rehearse: Rehearse
+    task: LimbedTask,
+    easy: list[Plan],
+    hard: list[Plan],
+    find: Callable[[PlanningMargins], Plan | None],
+    validate_plan: Rehearse,
 ) -> Plan | None:
     """The first plan whose rehearsal is flawless, or the one that did best, the first of equals."""
-    best: tuple[Rehearsal, Plan] | None = None
+    best: tuple[PlanValidation, Plan] | None = None
 
-    def tried(plan: Plan) -> Rehearsal:
+    def tried(plan: Plan) -> PlanValidation:
         nonlocal best
-        done = rehearse(task, plan)
+        done = validate_plan(task, plan)
         if best is None or done > best[0]:
             best = done, plan
         return done
@@ -141,8 +145,8 @@ def _rehearsed(
     for plan in easy:
         if tried(plan).flawless:
             return plan
-    for caution in steady(task):
-        taught = _taught(task, caution, find, tried)
+    for margins in steady(task):
+        taught = _taught(task, margins, find, tried)
         if taught is not None:
             return taught
     for plan in hard:
@@ -152,10 +156,13 @@ def _rehearsed(
 
 
 def _taught(
-    task: LimbedTask, caution: Caution, find: Callable[[Caution], Plan | None], tried: Callable[[Plan], Rehearsal]
+    task: LimbedTask,
+    margins: PlanningMargins,
+    find: Callable[[PlanningMargins], Plan | None],
+    tried: Callable[[Plan], PlanValidation],
 ) -> Plan | None:
     """A plan whose rehearsal is flawless: the grab that failed in the rehearsal before is made where it is steadier, or done without."""
-    plan = find(caution)
+    plan = find(margins)
     for _ in range(LESSONS):
         if plan is None:
             return None
@@ -165,12 +172,12 @@ def _taught(
         if done.failed is None:
             return None
         codes = plan.codes(task)
-        made = steadied(cautious(task, caution), codes, done.failed)
+        made = with_stretch_repaired(with_margins(task, margins), codes, done.failed)
         if not np.array_equal(made, codes):
             plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
             continue
-        caution = without(caution, plan, done.failed)
-        plan = find(caution)
+        margins = without(margins, plan, done.failed)
+        plan = find(margins)
     return None
 
 

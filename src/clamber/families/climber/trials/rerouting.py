@@ -10,13 +10,13 @@ import numpy as np
 from ....errors import StartError
 from ....planning.beam import plan_beam
 from ....planning.problem.plan import Plan
-from ..execution.bearing import borne
-from ..execution.course import Course, lay_course
-from ..execution.here import task_from_here
-from ..execution.ways_on_paper import grabs_without_way
+from ..execution.contact_capacity import load_capacity
+from ..execution.executable_plan import ExecutablePlan, lay_course
+from ..execution.remaining_task import task_from_here
+from ..execution.swing_feasibility import grabs_without_way
 from ..planning.task import LimbedTask
-from .cautions import Caution, cautious
 from .noise import named_noise
+from .planning_margins import PlanningMargins, with_margins
 
 MAP_ERROR: Final = named_noise("usual").widths["peg_error"]
 """With which ways are looked for on paper [m]."""
@@ -30,24 +30,24 @@ MENDED: Final = 8
 """Most changes of a plan, one after the other."""
 
 
-def without(caution: Caution, plan: Plan, step: int) -> Caution:
+def without(margins: PlanningMargins, plan: Plan, step: int) -> PlanningMargins:
     """The caution that does without the grab of a step."""
     grab = plan.actions[step - 1]
     assert grab.limb is not None and grab.hold is not None  # a plan names what it took
-    return replace(caution, barred=(*caution.barred, (grab.limb, grab.hold)))
+    return replace(margins, barred=(*margins.barred, (grab.limb, grab.hold)))
 
 
-def doubtful_grabs(course: Course) -> list[int]:
+def doubtful_grabs(course: ExecutablePlan) -> list[int]:
     """Steps of grabs that are doubtful on paper: the limb finds no way there, or hooks and motors lack much until the next one."""
     steps = set(grabs_without_way(course, MAP_ERROR))
     places = course.task.world.positions()
     for step, stance in enumerate(course.stances):
-        if borne(course.task.robot, places, stance, course.elbows[step]) < -LACK:
+        if load_capacity(course.task.robot, places, stance, course.elbows[step]) < -LACK:
             steps.add(next((at for at in range(step, 0, -1) if course.actions[at - 1].kind == "grab"), 0))
     return sorted(steps - {0})  # what the start lacks no grab mends
 
 
-def mended(task: LimbedTask, plan: Plan, caution: Caution, seconds: float) -> Plan | None:
+def repaired(task: LimbedTask, plan: Plan, margins: PlanningMargins, seconds: float) -> Plan | None:
     """A plan without doubtful grabs: changed from shortly before the first of them, until there is none.
 
     Args:
@@ -64,9 +64,9 @@ def mended(task: LimbedTask, plan: Plan, caution: Caution, seconds: float) -> Pl
     for _ in range(MENDED):
         if not doubtful:
             return plan
-        best: tuple[tuple[int, int], Plan, Course, list[int]] | None = None
+        best: tuple[tuple[int, int], Plan, ExecutablePlan, list[int]] | None = None
         for step, back in product(grabs_of(course, doubtful[0])[:2], BACKS):
-            other = other_end(course, plan, step, back, without(caution, plan, step), seconds)
+            other = other_end(course, plan, step, back, without(margins, plan, step), seconds)
             if other is None:
                 continue
             laid = lay_course(task, other)
@@ -87,7 +87,7 @@ def _left(plan: Plan, doubtful: Sequence[int]) -> tuple[int, int]:
     return (len(plan.actions) - doubtful[0] if doubtful else 0), len(doubtful)
 
 
-def grabs_of(course: Course, step: int) -> list[int]:
+def grabs_of(course: ExecutablePlan, step: int) -> list[int]:
     """Steps of the grabs by which the limbs hold after a step, the latest first: any of them may be at fault."""
     holds, steps = course.stances["hold"], []
     for i in range(len(course.task.robot.limbs)):
@@ -99,7 +99,9 @@ def grabs_of(course: Course, step: int) -> list[int]:
     return sorted(steps, reverse=True)
 
 
-def other_end(course: Course, plan: Plan, step: int, back: int, caution: Caution, seconds: float) -> Plan | None:
+def other_end(
+    course: ExecutablePlan, plan: Plan, step: int, back: int, margins: PlanningMargins, seconds: float
+) -> Plan | None:
     """A plan with another end, from `back` grabs before a step on; None where none is found, or something speaks against it.
 
     Args:
@@ -113,7 +115,7 @@ def other_end(course: Course, plan: Plan, step: int, back: int, caution: Caution
     task, codes = course.task, plan.codes(course.task)
     cut = cut_before(plan, step, back)
     try:
-        left = cautious(task_from_here(course, cut + 1, course.holds(cut), set()), caution)
+        left = with_margins(task_from_here(course, cut + 1, course.holds(cut), set()), margins)
         result = plan_beam(left, longest=round(LONGER * (len(codes) - cut)), seconds=seconds)
     except StartError:  # it stands where no such plan may begin
         return None

@@ -13,10 +13,12 @@ import numpy as np
 from ....errors import SpecError
 from ....execution.fault import Failing, Fault
 from ....execution.faulty_plants import FaultyBody
+from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import BodyPlant
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
@@ -24,9 +26,10 @@ from ....tasks import Task
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
+from ..execution.climb_scene import climb_scene
 from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
-from ..execution.course import climbable, lay_course
+from ..execution.executable_plan import climbable, lay_course
 from ..planning.task import LimbedTask
 from ..robot.robot import LimbedRobot
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, terrain_covariance, true_places
@@ -58,8 +61,8 @@ PHYSICS_RATE: float = 1000.0
 """Of the contact dynamics [Hz]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ClimbRun(Jsonable):
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ClimbRun(Jsonable, Pictured):
     """A climb that was carried out; exit code 1 where it is not done."""
 
     task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
@@ -89,6 +92,15 @@ class ClimbRun(Jsonable):
     def reason(self) -> str:
         """Why not; empty where it did."""
         return self.report.reason
+
+    @property
+    def scene(self) -> LoggedScene:
+        """See `CarriedOut`."""
+        return climb_scene(self.task, true=self.trace.true_pose is not None)
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def true_pegs(self) -> Floats | None:
@@ -183,7 +195,8 @@ def run_plan(
         climber = believing_climber(task, body, noise, drawn, gains)
         again = None if replan is None else timed_replan
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
-        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC) as finish:
+        scene = climb_scene(task, true=climber.truth is not None)
+        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC, scene) as finish:
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
             if fault is not None:

@@ -18,11 +18,11 @@ from ....trials.fault_trials import TriedFault, check_told, told_fault
 from ....trials.trial_runs import Setup, Trials
 from ....types import Json
 from ..execution.climbing import Progress, Replan
-from ..execution.course import lay_course
+from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
 from .noise import NOISE, Noise, check_noise, noise_of
+from .plan_validation import validations
 from .planning import QUIET, no_plan, plan_to_climb, replanner
-from .rehearsal import rehearse
 from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
@@ -152,6 +152,11 @@ class TrialSetup(Setup[ClimbRun, ClimbTrial]):
     faults: tuple[str, ...] = ()
     """Kinds of faults, one of which each trial has; none without."""
 
+    @property
+    def work(self) -> LimbedTask:
+        """See `Setup`."""
+        return self.task
+
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""
         return {
@@ -233,7 +238,7 @@ def with_plan(
             seconds=setup.seconds,
             seed=PLAN_SEED,
             events=events,
-            rehearse=lambda task, plan: rehearse(task, plan, flaws),
+            validate_plan=validations(flaws, events),
         )
     if plan is None:
         raise no_plan(setup.planner, setup.task)

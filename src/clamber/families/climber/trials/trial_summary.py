@@ -10,7 +10,7 @@ from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....trials.fault_trials import FaultRow, fault_rows
 from ....trials.trial_runs import wilson_interval
 from ....units import INCH
-from ..execution.course import Course, lay_course, names_of
+from ..execution.executable_plan import ExecutablePlan, lay_course, names_of
 from .sensitivity import Effect, find_effects
 from .trial import ClimbTrials
 
@@ -146,7 +146,7 @@ def sum_up(trials: ClimbTrials) -> TrialSummary:
     )
 
 
-def body_way(course: Course) -> float:
+def body_way(course: ExecutablePlan) -> float:
     """Length of the body's way in a plan [m]."""
     return float(np.hypot(np.diff(course.stances["x"]), np.diff(course.stances["y"])).sum())
 

@@ -12,7 +12,7 @@ from ....sim.flaw_texts import named_flaws
 from ....tasks import load_task
 from ..execution.climb_trace import TracedClimber
 from ..execution.climbing import Climbing
-from ..execution.course import climbable, lay_course
+from ..execution.executable_plan import climbable, lay_course
 from ..planning.plans import thesis_code
 from ..planning.task import LimbedTask
 from ..sim.climber_plant import ClimberPlant

@@ -5,13 +5,14 @@ from bisect import bisect_left
 from collections.abc import Container, Sequence
 from itertools import pairwise
 from operator import attrgetter
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, ClassVar, Final
 
 import numpy as np
 from pydantic import Field, StrictInt, StrictStr
 
 from ....errors import UnknownHoldError
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, spec
 from ....tasks.regions import check_polygon
 from ....types import Floats, Ints, Json
@@ -88,8 +89,10 @@ class Hold:
 
 
 @spec
-class Board:
+class Board(Pictured):
     """A wall with holds, in SI units, world frame."""
+
+    kind: ClassVar[str] = "board"
 
     name: str
     title: str

@@ -8,7 +8,8 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Records
-from ....viewing.film import Part
+from ....viewing.recording import Part
+from ..planning.plans import poses_of
 from ..planning.task import SpatialTask
 from .geometry import (
     LinkFrames,
@@ -59,15 +60,6 @@ class Moment:
     def tips(self) -> Floats:
         """Places of the tips, world frame [m], shape (limbs, 3)."""
         return self.frames.tips
-
-
-def poses_of(task: SpatialTask, stances: Records) -> Floats:
-    """Along, across, height [m], yaw, pitch, roll [rad] of stances, shape (n, 6)."""
-    steps, lattice = stances["pose"], task.step
-    height = task.start.height + lattice.height * steps[:, 2]
-    return np.column_stack(
-        (stances["x"], stances["y"], height, stances["angle"], lattice.tilt * steps[:, 4], lattice.tilt * steps[:, 5])
-    )
 
 
 def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None = None) -> list[Moment]:

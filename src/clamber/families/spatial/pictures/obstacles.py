@@ -6,7 +6,8 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..world.solids import BAR, BOX, CYLINDER, PLANE, TUBE
+from ..world.solids import BAR, BOX, CYLINDER, FIELD, PLANE, TUBE
+from ..world.terrain_kernels import field_distances
 from ..world.world import World
 
 MARCHED: Final = 48
@@ -22,7 +23,7 @@ def clear_of_solids(world: World, eyes: Floats) -> Callable[[Floats], float]:
         world: Its solids.
         eyes: The places, outside all solids, world frame [m], shape (n, 3).
     """
-    hiding = [solid for solid in world.solid_records if int(solid["kind"]) in (BOX, CYLINDER)]
+    hiding = [solid for solid in world.solid_records if int(solid["kind"]) in (BOX, CYLINDER, FIELD)]
     span = float(np.ptp(eyes, axis=0).max()) + 1.0
     along = np.linspace(0.0, 3.0 * span, MARCHED)
 
@@ -48,6 +49,10 @@ def distances(solid: np.void, points: Floats) -> Floats:
     if kind == PLANE:
         plane: Floats = own[..., 2]
         return plane
+    if kind == FIELD:
+        field = np.empty(own.shape[:-1])
+        field_distances(solid, own.reshape(-1, 3), field.reshape(-1))
+        return field
     if kind == BOX:
         away = np.abs(own) - size
         box: Floats = np.linalg.norm(np.maximum(away, 0.0), axis=-1) + np.minimum(away.max(axis=-1), 0.0)

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
@@ -20,6 +20,7 @@ from ....viewing.view import Layout
 from ..planning.task import SpatialTask
 from .alone import robot_alone, world_alone
 from .camera import Camera, camera_for
+from .chart import CHART
 from .moments import Moment, settled_moments
 from .robot_artists import RobotArtists, limb_colour, mixed
 from .run_view import RunPicture, RunView
@@ -93,7 +94,7 @@ def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay,
         ("End", describe_pose(task, moments[-1].pose).split(", yaw")[0]),
     )
     height = layout.panel[1]
-    write_facts(panel, replay, yardsticks_of(task), facts, height)
+    write_facts(panel, replay, normalisation_of(task), facts, height)
     names = task.robot.chains.limb_names
     for limb, name in enumerate(names):
         x, y = 0.05 + 0.9 * (limb % 4), height - FACTS - 0.1 - 0.16 * (limb // 4)
@@ -123,6 +124,7 @@ def pictures_from(asked: str | None) -> Pictures:
         run=lambda run: RunPicture(RunView(run.task, run.trace, camera_for(run.task, asked))),
         robot_alone=robot_alone,
         world_alone=world_alone,
+        chart=CHART,
         seen_from=pictures_from,
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ....types import Floats, Json
-from ....viewing.film import FRAMES, Frame, MarginRow, Part, View
+from ....viewing.recording import FRAMES, Frame, MarginRow, Part, View
 from ....viewing.route import draw_way
 from ....viewing.view import Picture
 from ..execution.run_trace import RunTrace

@@ -1,28 +1,32 @@
 """Robots in space in the viewer: world and robot, plans of them, the editor of holds."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from ....execution.log import Log, LogError
 from ....execution.sample_log import report_of, told_of
 from ....tasks.library import task_names
-from ....viewing.browser.exhibit import Exhibit, Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
+from ....viewing.browser.viewer_content import Editor, Scenes, ViewerContent
 from ....viewing.scene import Bounds
 from ..execution.carrying_report import LoggedRun
 from ..execution.run_trace import NAMES, Named, RunTrace
 from ..planning.task import SpatialTask
 from ..trials.run_plan import SpatialRun
 from .camera import camera_for
+from .hold_editor import HoldPanel
 from .run_view import RunView
 from .space import SpatialFigure, WorldScene
 from .spatial_view import way_places
 
 if TYPE_CHECKING:
     import viser
+
+    from ....viewing.browser.scene_view import SceneView
 
 ROOM: Final = 1.08
 """Around what is shown [-]."""
@@ -62,11 +66,22 @@ class SpatialScenes(Scenes):
         """See `Scenes`."""
         return SpatialScenery(bounds, task)
 
-    def run_film(self, exhibit: Exhibit, run: SpatialRun) -> RunView:
+    def editor(
+        self, server: "viser.ViserServer", task: SpatialTask, stage: "SceneView", changed: Callable[[Any], None]
+    ) -> Editor:
+        """See `Scenes`."""
+
+        def world() -> WorldScene:
+            assert isinstance(stage.world, WorldScene)  # a world in space
+            return stage.world
+
+        return HoldPanel(server, task, world, changed)
+
+    def run_film(self, exhibit: ViewerContent, run: SpatialRun) -> RunView:
         """See `Scenes`."""
         return RunView(run.task, run.trace, camera_for(run.task, None))
 
-    def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
+    def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
         """See `Scenes`."""
         trace = RunTrace.from_log(log)
         told_of(trace.report, LoggedRun, log.label)

@@ -203,28 +203,17 @@ class SpatialFigure(Figure):
 
     def __init__(self, server: "viser.ViserServer", name: str, task: SpatialTask, opacity: float = 1.0) -> None:
         super().__init__(server, name, opacity)
-        self._task, chains, self._grade = task, task.robot.chains, 3
+        self._task, chains = task, task.robot.chains
         self._length = longest_limb(task)
         self._nodes = {
-            key: server.scene.add_mesh_simple(
-                f"{name}/parts/{key[0] + 1} {key[1] + 1}",
-                *mesh,
-                color=colour(BASE if key[0] < 0 else limb_colour(key[0])),
-                flat_shading=False,
-                opacity=None if opacity >= 1.0 else opacity,
-                cast_shadow=opacity >= 1.0,
+            key: self.rigid(
+                f"parts/{key[0] + 1} {key[1] + 1}", mesh, colour(BASE if key[0] < 0 else limb_colour(key[0]))
             )
             for key, mesh in body_meshes(task).items()
         }
         if (-1, -1) not in self._nodes:
-            self._nodes[-1, -1] = server.scene.add_mesh_simple(
-                f"{name}/parts/base",
-                *box_mesh(np.maximum(chains.base_half, 0.01 * self._length)),
-                color=colour(BASE),
-                flat_shading=True,
-                opacity=None if opacity >= 1.0 else opacity,
-                cast_shadow=opacity >= 1.0,
-            )
+            box = box_mesh(np.maximum(chains.base_half, 0.01 * self._length))
+            self._nodes[-1, -1] = self.rigid("parts/base", box, colour(BASE), flat=True)
         limbs = range(len(chains.limb_names))
         self._bare = [
             (limb, k) for limb in limbs for k in range(int(chains.n_joints[limb])) if (limb, k) not in self._nodes
@@ -241,9 +230,9 @@ class SpatialFigure(Figure):
 
     def show(self, at: Moment, grade: int = 3) -> None:
         """Put everything where a moment has it; the base takes the colour of a grade."""
-        if grade != self._grade and not self._ghost:
-            self._grade = grade
-            self._nodes[-1, -1].color = colour(GRADES[grade])
+        self.middle = np.asarray(at.body.place)
+        if not self._ghost:
+            self._nodes[-1, -1].paint(np.array([colour(GRADES[grade])], np.uint8))
         self._place_parts(at.body, at.frames)
         chains = self._task.robot.chains
         if self._sticks is not None and self._joints is not None:
@@ -263,9 +252,7 @@ class SpatialFigure(Figure):
         keys = list(self._nodes)
         turns = np.array([body.turn if limb < 0 else frames.axes[limb, k] for limb, k in keys])
         for key, wxyz in zip(keys, quaternions(turns), strict=True):
-            node = self._nodes[key]
-            node.position = tuple(body.place if key[0] < 0 else frames.origins[key])
-            node.wxyz = tuple(wxyz)
+            self._nodes[key].put(body.place if key[0] < 0 else frames.origins[key], wxyz)
 
 
 def box_mesh(half: Floats) -> Mesh:

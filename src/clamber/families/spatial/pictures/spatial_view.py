@@ -8,12 +8,12 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Polygon
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import NOTHING_LIMITS, yardsticks_of
+from ....planning.problem.problems import NOTHING_LIMITS, normalisation_of
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.film import Part, PlanView
 from ....viewing.panel import Gauges
+from ....viewing.recording import Part, PlanView
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Picture
 from ..planning.swing_loads import SwingLoads
@@ -48,7 +48,7 @@ class SpatialView(PlanView[Moment]):
 
     def __init__(self, task: SpatialTask, replay: Replay, camera: Camera) -> None:
         self.camera, self.names = camera, task.robot.chains.limb_names
-        sticks = yardsticks_of(task)
+        sticks = normalisation_of(task)
         limited = (
             np.abs(np.nan_to_num(replay.margins, nan=NOTHING_LIMITS)).min(axis=0, initial=NOTHING_LIMITS)
             < NOTHING_LIMITS
@@ -86,7 +86,7 @@ class SpatialView(PlanView[Moment]):
         before, after = self.moments[step - 1], self.moments[step]
         words = describe_change(self.task, before, after)
         reason = int(self.replay.reasons[step - 1])
-        return words if reason < 0 else f"{words}, violates {self.yardsticks.checks[reason].name.replace('_', '-')}"
+        return words if reason < 0 else f"{words}, violates {self.normalisation.checks[reason].name.replace('_', '-')}"
 
     def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """Pose and holds."""

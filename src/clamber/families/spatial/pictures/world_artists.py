@@ -1,6 +1,7 @@
 """A world in space on the axes of a picture: surfaces with a quiet grid, holds as discs in their surface, guide, goals, scale."""
 
 import math
+from collections import Counter
 from typing import Final
 
 import numpy as np
@@ -21,6 +22,8 @@ from .surfaces import Face, guide_ribbon, round_length, surfaces_of
 
 SHADES: Final = ("#D3D8DE", "#F6F7F9")
 """Colour of a face that the light passes by, and of one that it falls on straight."""
+RELIEF: Final = "#8E9AA6"
+"""The former of a terrain, whose shape nothing else shows."""
 LIGHT: Final = np.array((-0.35, 0.75, 0.55))
 """Where the light comes from: right, up and towards the camera, of any length."""
 GRID: Final = "#22303C1C"
@@ -32,6 +35,8 @@ FAR_SIDE: Final = "#CBD1D8"
 LEAST_HOLD: Final = 0.006
 """Least radius of a drawn hold, over the larger side of the picture [-]."""
 CORNERS: Final = 14
+MANY: Final = 60
+"""Faces of what is no flat solid, none of which is taken away from before the robot."""
 MOST_NORMALS: Final = 700
 """Worlds with more holds show them without their normals."""
 MOST_NUMBERED: Final = 70
@@ -59,8 +64,10 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
     front = {id(face): float(face.normal @ camera.axes[2]) > 1e-6 for face in surfaces.faces}
     seen = [face for face in surfaces.faces if front[id(face)] or face.solid in planes]
     seen.sort(key=lambda face: float(camera.depth(face.corners).mean()))
-    glass = [face for face in seen if not front[id(face)] or _hides(face, camera, task)]
-    solid = [face for face in seen if not any(face is other for other in glass)]
+    few = Counter(face.solid for face in seen)
+    glass = [face for face in seen if not front[id(face)] or (few[face.solid] < MANY and _hides(face, camera, task))]
+    clear = {id(face) for face in glass}
+    solid = [face for face in seen if id(face) not in clear]
     _draw_faces(axes, solid, camera)
     axes.add_collection(LineCollection(list(camera.flat(surfaces.lines)), colors=GRID, linewidths=0.6, zorder=1.2))
     _draw_glass(axes, glass, camera)
@@ -79,11 +86,11 @@ def _set_axes(axes: Axes, bounds: Bounds) -> None:
         spine.set_color(style.FAINT)
 
 
-def shade(normal: Floats, camera: Camera) -> tuple[float, float, float]:
-    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]."""
+def shade(normal: Floats, camera: Camera, darkest: str = SHADES[0]) -> tuple[float, float, float]:
+    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]; `darkest` where it passes by."""
     light = LIGHT @ camera.axes
     lit = max(0.0, float(normal @ light) / float(np.linalg.norm(light) * np.linalg.norm(normal)))
-    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in SHADES)
+    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in (darkest, SHADES[1]))
     red, green, blue = dark + (0.3 + 0.7 * lit) * (bright - dark)
     return float(red), float(green), float(blue)
 
@@ -92,8 +99,9 @@ def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
     """Faces from the farthest to the nearest; round solids and ribbons have no lines between their faces."""
     if not faces:
         return
-    paint = [shade(face.normal, camera) for face in faces]
-    boxy = {index for index in (face.solid for face in faces) if sum(face.solid == index for face in faces) <= 3}
+    counts = Counter(face.solid for face in faces)
+    boxy = {index for index, count in counts.items() if count <= 3}
+    paint = [shade(face.normal, camera, RELIEF if counts[face.solid] >= MANY else SHADES[0]) for face in faces]
     edges = [
         EDGE if face.solid in boxy and face.solid >= 0 else colour for face, colour in zip(faces, paint, strict=True)
     ]

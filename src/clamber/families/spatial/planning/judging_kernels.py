@@ -1,19 +1,34 @@
 """Judging a stance of a task in space: where its limbs are, what statics says of it, and how near it comes to solids."""
 
+import math
+
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
+from ....planning.problem.randoms import scramble
 from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
-from ..statics.stance_kernels import judge, swing_reach
+from ..statics.stance_kernels import (
+    aim_limb,
+    judge,
+    judge_forces,
+    judge_postures,
+    judge_shape,
+    place_in_world,
+    solve_limb,
+    swing_reach,
+    weigh,
+)
 from ..world.solids import SOLID
 from ..world.terrain_kernels import terrain_distance
-from .checks import CLEARANCE
+from .checks import CLEARANCE, SWING
 from .poses_kernels import holds_of
-from .records import AXES
+from .records import AXES, KNOWN, LIFTED
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
+BETWEEN = 3
+"""Places of a link between its ends that are held against solids."""
 
 
 @inlined
@@ -72,11 +87,61 @@ def set_contacts(p, s, swinging, moved):
         contact.friction = hold.friction
         contact.bears = 0 if i == swinging else 1
         contact.moved = 1 if i == moved else 0
+        contact.known = 0
+
+
+@kernel
+def know_posture(p, s, limb):
+    """Posture of a limb of a placed stance, and the error that it leaves: solved, or as it was kept; after `set_contacts`.
+
+    Returns:
+        The record of `KNOWN`, good until the next one is asked for.
+    """
+    named = limb + 1 | np.int64(s.hold[limb]) << 16
+    value = scramble(np.uint64(named))
+    for k in range(AXES):
+        value = scramble(value ^ np.uint64(s.pose[k]))
+    known = carray(pointer(p.work_known_at), p.n_work_known, KNOWN)[np.int64(value & np.uint64(p.n_work_known - 1))]
+    same = known.limb == named
+    for k in range(AXES):
+        same = same and known.pose[k] == s.pose[k]
+    if not same:
+        robot = robot_of(p)
+        work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+        contact = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)[limb]
+        aim_limb(carray(pointer(p.work_body_at), 1, BODY)[0], contact.place, contact.normal, limb, work)
+        known.error = solve_limb(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], limb, work)
+        known.limb = named
+        for k in range(AXES):
+            known.pose[k] = s.pose[k]
+        for k in range(robot.n_joints[limb]):
+            known.posture[k] = work.posture[limb, k]
+    return known
+
+
+@kernel
+def know_postures(p, s, out):
+    """Put the postures of a placed stance where `judge` finds them, up to a limb that does not reach its hold; after `set_contacts`."""
+    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+    robot = robot_of(p)
+    most = carray(pointer(p.rules_at), 1, RULES)[0].reach * robot.size + TOLERANCE
+    for i in range(p.n_limbs):
+        known = know_posture(p, s, i)
+        contacts[i].known = 1
+        contacts[i].error = known.error
+        for k in range(robot.n_joints[i]):
+            out.posture[i, k] = known.posture[k]
+        if known.error > most:
+            return
 
 
 @kernel
 def solids_gap(p, s, judged):
-    """Least distance of links, but for the last one's tip, and of the base's corners from solids, less the clearance asked for [m]."""
+    """Least distance of links and of the base's corners from solids, less the clearance asked for [m].
+
+    Of each link its ends and `BETWEEN` places in between are looked at; of the last one, which touches a solid with its tip, the half
+    that is nearer to the joint; first links lie beside the base.
+    """
     if p.n_solids == 0:
         return UNLIMITED
     robot = robot_of(p)
@@ -84,8 +149,17 @@ def solids_gap(p, s, judged):
     gap = UNLIMITED
     for i in range(p.n_limbs):
         for k in range(1, robot.n_joints[i]):
-            at = judged.origin[i, k]
-            gap = min(gap, terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k])
+            at, to = judged.origin[i, k], judged.origin[i, k + 1]
+            x, y, z = to[0] - at[0], to[1] - at[1], to[2] - at[2]
+            near = terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k]
+            gap = min(gap, near)
+            part = 1.0 if k + 1 < robot.n_joints[i] else 0.5
+            if near - part * math.sqrt(x * x + y * y + z * z) > gap:
+                continue
+            for step in range(1, BETWEEN + 1):
+                share = part * step / (BETWEEN + 1)
+                away = terrain_distance(solids, at[0] + share * x, at[1] + share * y, at[2] + share * z)
+                gap = min(gap, away - robot.radius[i, k])
     for corner in range(8):
         x = robot.base_half[0] * (1 - 2 * (corner & 1))
         y = robot.base_half[1] * (1 - (corner & 2))
@@ -122,36 +196,133 @@ def judge_stance(p, before, s, swinging, moved, margins):
     """
     set_contacts(p, s, swinging, moved)
     judged = carray(pointer(p.work_judged_at), 2, JUDGED)
-    last, out = judged[0], judged[1]
-    last.judged = before.postured
-    for i in range(p.n_limbs):
-        for k in range(JOINTS):
-            last.posture[i, k] = before.q[i, k]
-    rules = carray(pointer(p.rules_at), 1, RULES)[0]
+    remember(p, before, judged[0])
+    out = judged[1]
+    know_postures(p, s, out)
     broken = judge(
         robot_of(p),
         carray(pointer(p.seeds_at), 1, SEEDS)[0],
         carray(pointer(p.work_body_at), 1, BODY)[0],
         carray(pointer(p.work_contacts_at), LIMBS, CONTACT),
-        last,
-        rules,
+        judged[0],
+        carray(pointer(p.rules_at), 1, RULES)[0],
         out,
         carray(pointer(p.work_statics_at), 1, WORK)[0],
     )
     for k in range(CLEARANCE):
         margins[k] = out.margins[k]
+    keep_judged(p, s, out, swinging < 0)
+    if broken >= 0:
+        return broken
+    margins[CLEARANCE] = solids_gap(p, s, out)
+    return CLEARANCE if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE else -1
+
+
+@inlined
+def remember(p, before, last):
+    """Put the posture of a stance where `judge` finds the one before."""
+    last.judged = before.postured
+    for i in range(p.n_limbs):
+        for k in range(JOINTS):
+            last.posture[i, k] = before.q[i, k]
+
+
+@inlined
+def keep_judged(p, s, out, bears):
+    """Write what judging found into a stance, wrenches where all its limbs bear."""
     s.postured = 1
     s.share = out.s
     s.torque = out.torque
     for i in range(p.n_limbs):
         for k in range(JOINTS):
             s.q[i, k] = out.posture[i, k]
-        if swinging < 0:
+        if bears:
             world_wrench(s.turn, out.frame[i], out.wrench[i], s.wrench[i])
+
+
+@kernel
+def judge_lifted(p, before, limb):
+    """The first force check that a valid stance violates while a limb bears nothing, -1 if none; kept for the limb's other ways on."""
+    lifted = carray(pointer(p.work_lifted_at), 1, LIFTED)[0]
+    same = lifted.hold[0] == before.hold[0]
+    for k in range(AXES):
+        same = same and lifted.pose[k] == before.pose[k]
+    for i in range(p.n_limbs):
+        same = same and lifted.hold[i] == before.hold[i]
+    if not same:
+        for k in range(AXES):
+            lifted.pose[k] = before.pose[k]
+        for i in range(p.n_limbs):
+            lifted.hold[i] = before.hold[i]
+            lifted.verdict[i] = -2
+    if lifted.verdict[limb] == -2:
+        robot = robot_of(p)
+        rules = carray(pointer(p.rules_at), 1, RULES)[0]
+        judged = carray(pointer(p.work_judged_at), 2, JUDGED)
+        body = carray(pointer(p.work_body_at), 1, BODY)[0]
+        contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+        work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+        set_contacts(p, before, limb, -1)
+        for i in range(p.n_limbs):
+            contacts[i].known = 1
+            contacts[i].error = 0.0
+            for k in range(JOINTS):
+                judged[1].posture[i, k] = before.q[i, k]
+        remember(p, before, judged[0])
+        judge_postures(
+            robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, judged[1], work
+        )
+        weigh(robot, body, work)
+        lifted.verdict[limb] = judge_forces(robot, rules, judged[1], work)
+    return lifted.verdict[limb]
+
+
+@kernel
+def judge_taken(p, before, s, limb, margins):
+    """Judge a placed stance in which a limb has come to another hold, without it and with it, and write its posture and wrenches.
+
+    Returns:
+        The first violated hard check, or -1; `margins` up to it are written as far as the verdict needs them.
+    """
+    set_contacts(p, s, -1, limb)
+    judged = carray(pointer(p.work_judged_at), 2, JUDGED)
+    remember(p, before, judged[0])
+    out = judged[1]
+    know_postures(p, s, out)
+    robot = robot_of(p)
+    rules = carray(pointer(p.rules_at), 1, RULES)[0]
+    body = carray(pointer(p.work_body_at), 1, BODY)[0]
+    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+    broken = judge_shape(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, out, work)
+    if broken < 0 and out.judged and p.n_solids > 0:
+        place_in_world(robot, body, work, out)
+        margins[CLEARANCE] = solids_gap(p, s, out)
+        if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE:
+            broken = CLEARANCE
     if broken >= 0:
         return broken
-    margins[CLEARANCE] = solids_gap(p, s, out)
-    return CLEARANCE if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE else -1
+    margins[SWING] = swing_margin(p, before, limb, s.hold[limb])
+    if p.hard >> SWING & 1 and margins[SWING] < -TOLERANCE:
+        return SWING
+    broken = judge_lifted(p, before, limb)
+    if broken >= 0:
+        return broken
+    set_contacts(p, s, -1, limb)
+    know_postures(p, s, out)
+    judge_postures(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, out, work)
+    weigh(robot, body, work)
+    work.bears[limb] = 0
+    broken = judge_forces(robot, rules, out, work)
+    if broken >= 0:
+        return broken
+    work.bears[limb] = 1
+    broken = judge_forces(robot, rules, out, work)
+    if broken < 0:
+        keep_judged(p, s, out, True)
+        for k in range(CLEARANCE):
+            margins[k] = out.margins[k]
+    return broken
 
 
 @kernel

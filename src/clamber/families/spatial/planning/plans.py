@@ -7,8 +7,10 @@ from typing import Final
 import numpy as np
 
 from ....errors import describe_choices
+from ....planning.problem.body_pose import SPACE, PoseLattice
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NONE, Code, pack
+from ....planning.problem.problem import CompiledProblem, Records
 from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ....types import Floats
 from .checks import SPATIAL_CHECKS
@@ -115,9 +117,21 @@ class SpatialPlans(PlanFamily):
         limb = task.robot.chains.limb_names[opened.limb]
         return f"{limb} {'nearest' if opened.kind == 'nearest' else 'to'} {opened.argument + 1}"
 
-    def pose(self, stance: np.void) -> tuple[float, float, float]:
-        """Along and across the guide [m], and yaw [rad]."""
-        return float(stance["x"]), float(stance["y"]), float(stance["angle"])
+    pose_axes = SPACE
+
+    def pose(self, task: SpatialTask, stance: np.void) -> tuple[float, ...]:
+        """Along, across and above the guide [m], yaw, pitch and roll [rad]; a surface that is followed adds to height and tilt."""
+        return tuple(poses_of(task, stance.reshape(1))[0].tolist())
+
+    def lattice(self, task: SpatialTask, problem: CompiledProblem) -> PoseLattice:
+        """The lattice of the body's poses on the guide."""
+        start, step = task.start, task.step
+        return PoseLattice(
+            axes=SPACE,
+            origin=np.array((start.along, start.across, start.height, start.yaw, 0.0, 0.0)),
+            step=np.array((step.length, step.length, step.height, step.angle, step.tilt, step.tilt)),
+            period=np.array((0, 0, 0, round(math.tau / step.angle), 0, 0), np.int64),
+        )
 
     def holds(self, task: SpatialTask, stance: np.void) -> dict[str, int]:
         """Limb name -> number of its hold."""
@@ -131,6 +145,15 @@ class SpatialPlans(PlanFamily):
     def costs(self, task: SpatialTask) -> Mapping[str, PlanCost]:
         """How much of strengths and torques the worst stance uses."""
         return {"strain": PlanCost(feature="peak", title="uses at most", unit="%", per_unit=0.01, digits=0)}
+
+
+def poses_of(task: SpatialTask, stances: Records) -> Floats:
+    """Along, across, height [m], yaw, pitch, roll [rad] of stances, shape (n, 6)."""
+    steps, lattice = stances["pose"], task.step
+    height = task.start.height + lattice.height * steps[:, 2]
+    return np.column_stack(
+        (stances["x"], stances["y"], height, stances["angle"], lattice.tilt * steps[:, 4], lattice.tilt * steps[:, 5])
+    )
 
 
 def move_delta(task: SpatialTask, argument: int) -> Floats:

@@ -99,8 +99,8 @@ def place_body(p, s, w):
     side[0] = up[1] * ahead[2] - up[2] * ahead[1]
     side[1] = up[2] * ahead[0] - up[0] * ahead[2]
     side[2] = up[0] * ahead[1] - up[1] * ahead[0]
-    pitch = p.tilt * s.pose[PITCH]
-    roll = p.tilt * s.pose[ROLL]
+    pitch = p.pitch + p.tilt * s.pose[PITCH]
+    roll = p.roll + p.tilt * s.pose[ROLL]
     cp = math.cos(pitch)
     sp = math.sin(pitch)
     cr = math.cos(roll)

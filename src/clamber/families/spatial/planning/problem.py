@@ -1,30 +1,32 @@
 """A task of a robot in space as planners see it."""
 
+import copy
 import math
-from typing import Any, Final
+from collections.abc import Callable
+from typing import Any, Final, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from ....errors import SpecError
-from ....planning.problem.arrays import ActionTable, Params, WayFields
-from ....planning.problem.check import TICKS
+from ....planning.problem.arrays import ActionTable, CostToGoMap, Params
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
-from ....planning.problem.problem import CompiledProblem, Records
+from ....planning.problem.problem import Beam, CompiledProblem, Records
 from ....types import Floats
 from ..statics.judging import REACHED
 from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, RULES, WORK
 from . import search_kernels as search_kernels  # its module registers the family's kernels
+from .bounding import with_bound
 from .checks import SPATIAL_CHECKS
 from .judging_kernels import SCRATCH
-from .records import GOAL, PARAMS
+from .records import AXES, GOAL, KNOWN, LIFTED, PARAMS
 from .records import HOLD as HOLD_RECORD
 from .robot_arrays import robot_arrays
 from .start import find_start
 from .step_kernels import MOVES
 from .surface import fit_surface, on_guide, span_along
-from .task import CHECK_NAMES, SpatialTask
+from .task import CHECK_NAMES, SpatialTask, Start
 
 FEATURES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
@@ -38,7 +40,9 @@ MOVE_NAMES: Final = tuple(
 class SpatialProblem(CompiledProblem):
     """Poses on a guide, holds of the world, all checks."""
 
-    key_words, spot_words = 6, 3 + LIMBS
+    key_words, pose_words = 6, AXES + LIMBS
+    foreseen = ("body", "limbs", "stages", "length", "unstable")
+    beam = Beam(width=120, niche=2, weights=(("body", 1.0), ("limbs", 0.3), ("stages", 0.5)), polish=10_000)
 
     def __init__(self, task: SpatialTask, threads: int | None = None, *, exact: bool = False) -> None:
         """Pose a task.
@@ -61,6 +65,14 @@ class SpatialProblem(CompiledProblem):
             FEATURES,
             threads,
         )
+
+    def informed(self, is_late: Callable[[], bool] = lambda: False) -> Self:
+        """The same problem whose `bound` counts, limb by limb, what must still change near the straight way to the last goal."""
+        other = copy.copy(self)
+        other.params = with_bound(self.params, self.start, is_late)
+        other.threads, other._pool, other._kept = 1, None, []
+        other._scratch = [other._make_scratch()]
+        return other
 
     @property
     def limits(self) -> CodeLimits:
@@ -94,7 +106,7 @@ class SpatialProblem(CompiledProblem):
         near = np.linalg.norm(places[None] - some[:, None], axis=2) < 0.5 * reach
         return poses * max(1.0, float(np.median(near.sum(axis=1)))) ** limbs
 
-    def ways(self) -> WayFields:
+    def ways(self) -> CostToGoMap:
         """Steps along and across to each goal, straight."""
         task, step = self.task, self.task.step
         goals: Any = self.params.array("goals")
@@ -109,7 +121,7 @@ class SpatialProblem(CompiledProblem):
         after = np.zeros(len(goals))
         for k in range(len(goals) - 2, -1, -1):
             after[k] = (goals["way"][-1] - goals["way"][k]) / (step.far * step.length)
-        return WayFields(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
+        return CostToGoMap(np.array((u[0], v[0], step.length)), fields, at_holds / (step.far * step.length), after)
 
     def resolve(self, codes: npt.NDArray[np.int32], stances: Records) -> npt.NDArray[np.int32]:
         """Codes that name the hold which each choice of the nearest came to."""
@@ -181,10 +193,21 @@ def hold_records(task: SpatialTask) -> Records:
     rows["place"], rows["normal"] = world.places, world.normals
     rows["friction"] = [math.inf if hold.friction is None else hold.friction for hold in world.holds]
     rows["strength"] = [math.inf if hold.strength is None else hold.strength for hold in world.holds]
-    rows["radius"] = [hold.radius for hold in world.holds]
     on = on_guide(world.frames, world.places)
     rows["along"], rows["across"], rows["height"] = on[:, 0], on[:, 1], on[:, 2]
     return rows
+
+
+def leaning(tips: Floats, start: Start) -> Floats:
+    """Nominal tips along, beside and above a body's heading on the guide, when it leans as at the start, shape (limbs, 3) [m].
+
+    Args:
+        tips: Base frame, shape (limbs, 3) [m].
+        start: Of the task.
+    """
+    cp, sp, cr, sr = math.cos(start.pitch), math.sin(start.pitch), math.cos(start.roll), math.sin(start.roll)
+    made: Floats = tips @ np.array(((cp, sp * sr, sp * cr), (0.0, cr, -sr), (-sp, cp * sr, cp * cr))).T
+    return made
 
 
 def problem_params(task: SpatialTask, exact: bool) -> Params:
@@ -194,11 +217,11 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         raise SpecError(f"world '{world.name}'", "holds", [], "must be one or more: limbs stand on holds")
     holds, record = hold_records(task), np.zeros(1, PARAMS)
     row = record[0]
-    row["along"], row["across"], row["height"], row["yaw"] = start.along, start.across, start.height, start.yaw
+    row["along"], row["across"], row["height"] = start.along, start.across, start.height
+    row["yaw"], row["pitch"], row["roll"] = start.yaw, start.pitch, start.roll
     row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
     row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
     row["turns"] = round(math.tau / step.angle)
-    row["turn_ticks"] = TICKS * int(row["turns"])
     row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
     row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)
     row["lift"], row["clearance"] = rules.lift, rules.clearance
@@ -235,15 +258,21 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         follow=follow,
         solids=world.solid_records,
         spans=spans,
-        tips=arrays.tips,
+        tips=leaning(arrays.tips, start),
+        region=np.zeros(0, np.int32),
+        left=np.zeros(0, np.int16),
         work=np.zeros(SCRATCH),
         work_body=body,
         work_contacts=np.zeros(LIMBS + 2, CONTACT),
         work_judged=np.zeros(2, JUDGED),
         work_statics=np.zeros(1, WORK),
+        work_known=np.zeros(KEPT, KNOWN),
+        work_lifted=np.zeros(1, LIFTED),
     )
 
 
+KEPT: Final = 1 << 14
+"""Postures that each thread keeps; a power of two."""
 SAMPLED: Final = 100
 """Holds about which others are counted, to estimate how many there are for a limb."""
 ANY_YAW: Final = 7.0

@@ -16,7 +16,6 @@ STANCE: Final = np.dtype(
         ("stage", "i4"),  # goals met
         ("count", "i4"),  # actions so far
         ("postured", "i4"),  # whether `q` is the posture of the stance
-        ("spare", "i4"),
         ("x", "f8"),  # along the guide [m]
         ("y", "f8"),  # across it [m]
         ("angle", "f8"),  # yaw [rad]
@@ -33,6 +32,25 @@ STANCE: Final = np.dtype(
     ],
     align=True,
 )
+KNOWN: Final = np.dtype(
+    [
+        ("pose", "i8", (AXES,)),
+        ("limb", "i8"),  # its number from 1, 0 where nothing is kept, and above 16 bits the hold
+        ("error", "f8"),  # that the posture leaves [m]
+        ("posture", "f8", (JOINTS,)),
+    ],
+    align=True,
+)
+"""The posture of a limb for a pose and a hold, kept because it depends on them alone."""
+LIFTED: Final = np.dtype(
+    [
+        ("pose", "i8", (AXES,)),
+        ("hold", "i4", (LIMBS,)),
+        ("verdict", "i4", (LIMBS,)),  # first check violated without the limb, -1: none, -2: not judged yet
+    ],
+    align=True,
+)
+"""The last stance that limbs were lifted in, and what came of that."""
 GOAL: Final = np.dtype(
     [
         ("along_min", "f8"),
@@ -51,7 +69,6 @@ HOLD: Final = np.dtype(
         ("normal", "f8", (3,)),  # out of the surface
         ("friction", "f8"),  # largest coefficient; infinite: the end effector's own
         ("strength", "f8"),  # largest force [N]; infinite: any
-        ("radius", "f8"),  # of the patch [m]
         ("along", "f8"),
         ("across", "f8"),
         ("height", "f8"),  # on the guide [m]
@@ -63,7 +80,9 @@ PARAMS: Final = np.dtype(
         ("along", "f8"),
         ("across", "f8"),
         ("height", "f8"),
-        ("yaw", "f8"),  # of the start
+        ("yaw", "f8"),
+        ("pitch", "f8"),
+        ("roll", "f8"),  # of the start
         ("length", "f8"),
         ("rise", "f8"),
         ("angle", "f8"),
@@ -80,7 +99,6 @@ PARAMS: Final = np.dtype(
         ("far", "i8"),
         ("nearest", "i8"),
         ("turns", "i8"),
-        ("turn_ticks", "i8"),
         ("n_limbs", "i4"),
         ("hard", "i4"),
         ("kinds", "i4", (8,)),
@@ -90,6 +108,12 @@ PARAMS: Final = np.dtype(
         ("n_solids", "i8"),
         ("n_rows", "i8"),
         ("n_columns", "i8"),
+        ("region_low", "i8", (AXES,)),
+        ("region_count", "i8", (AXES,)),  # box of poses that tables of the bound are for
+        ("n_region", "i8"),
+        ("n_poses", "i8"),
+        ("region_at", "i8"),
+        ("left_at", "i8"),
         ("robot_at", "i8"),
         ("seeds_at", "i8"),
         ("rules_at", "i8"),
@@ -105,6 +129,9 @@ PARAMS: Final = np.dtype(
         ("work_contacts_at", "i8"),
         ("work_judged_at", "i8"),
         ("work_statics_at", "i8"),
+        ("work_known_at", "i8"),
+        ("n_work_known", "i8"),
+        ("work_lifted_at", "i8"),
     ],
     align=True,
 )

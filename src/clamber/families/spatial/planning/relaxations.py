@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from typing import Any, Final
 
 from ....errors import UnitError
-from ....planning.openings.relaxations import Relaxation, key_dial
+from ....planning.infeasibility.relaxations import Relaxation, key_dial
 from ....units import DEGREE, read_quantity
 from .task import SpatialTask
 

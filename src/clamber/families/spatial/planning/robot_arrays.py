@@ -33,19 +33,25 @@ class RobotArrays:
 def robot_arrays(robot: SpatialRobot) -> RobotArrays:
     """The arrays of a robot."""
     records = robot_record(robot.chains, robot.contacts)
+    return RobotArrays(records, seed_table(records), _tips(robot, records), reaches(robot))
+
+
+def nominal_tips(robot: SpatialRobot) -> Floats:
+    """Tips of the nominal postures, base frame [m], shape (limbs, 3)."""
+    return _tips(robot, robot_record(robot.chains, robot.contacts))
+
+
+def _tips(robot: SpatialRobot, records: Records) -> Floats:
     work = np.zeros(1, WORK)
-    limbs = len(robot.chains.limb_names)
-    most = robot.chains.nominal.shape[1]
+    limbs, most = robot.chains.nominal.shape
     work["posture"][0, :limbs, :most] = robot.chains.nominal
     for limb in range(limbs):
         limb_frames(records[0], limb, work[0])
-    n = robot.chains.n_joints
-    tips = np.array([work["origin"][0, limb, n[limb]] for limb in range(limbs)])
-    return RobotArrays(records, seed_table(records), tips, _reach(robot))
+    return np.array([work["origin"][0, limb, n] for limb, n in enumerate(robot.chains.n_joints)])
 
 
-def _reach(robot: SpatialRobot) -> Floats:
-    """From the base's origin to a limb's first joint, and on along links that no joint bends, slides run out [m]."""
+def reaches(robot: SpatialRobot) -> Floats:
+    """From the base to each limb's first joint and on along links that no joint bends, slides run out [m], shape (limbs,)."""
     chains = robot.chains
     made = np.linalg.norm(chains.offset, axis=2)
     slides = chains.sliding * np.maximum(abs(chains.lower), abs(chains.upper))

@@ -8,12 +8,12 @@ from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TICKS
 from ....planning.problem.codes import MOVE, pack_code
 from ....planning.problem.family_kernels import family_kernels
-from ..statics.records import BODY, CONTACT, JOINTS, LIMBS, SEEDS, WORK
-from ..statics.stance_kernels import aim_limb, solve_limb
-from .judging_kernels import robot_of, scratch_of, set_contacts
-from .poses_kernels import away_from, goals_of, holds_of, meets, outside, place_body, yaw_missing
-from .records import ACROSS, ALONG, HEIGHT, PARAMS, PITCH, ROLL, YAW
-from .step_kernels import MOVES, NEAR, RANKED, holds_near, step
+from ..statics.records import JOINTS, LIMBS
+from .bounding_kernels import moves_between, plain_bound, table_bound
+from .judging_kernels import know_posture, scratch_of, set_contacts
+from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, yaw_missing
+from .records import ACROSS, ALONG, AXES, HEIGHT, PARAMS, PITCH, ROLL, YAW
+from .step_kernels import MOVES, NEAR, RANKED, draft, holds_near, step
 
 
 @kernel
@@ -61,16 +61,10 @@ def restore(p, words, s):
     s.count = 0
     place_body(p, s, scratch_of(p))
     set_contacts(p, s, -1, -1)
-    robot = robot_of(p)
-    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
     for i in range(p.n_limbs):
-        aim_limb(body, contacts[i].place, contacts[i].normal, i, work)
-        solve_limb(robot, seeds, i, work)
+        known = know_posture(p, s, i)
         for k in range(JOINTS):
-            s.q[i, k] = work.posture[i, k]
+            s.q[i, k] = known.posture[k]
     s.postured = 1
 
 
@@ -98,19 +92,23 @@ def measure(p, s, row):
 
 @kernel
 def bound(p, s):
-    """Moves that the body needs at least, and times that each limb must take another hold to come along."""
+    """Actions that are left at least: by the tables, where there are any for the pose, else by distances alone."""
     if s.stage >= p.n_goals:
         return 0.0
-    goal, holds = goals_of(p)[s.stage], holds_of(p)
-    spans = carray(pointer(p.spans_at), LIMBS, np.float64)
-    stride = p.far * p.length
-    count = math.ceil(outside(s.x, goal.along_min, goal.along_max) / stride - 1e-6)
-    count += math.ceil(outside(s.y, goal.across_min, goal.across_max) / stride - 1e-6)
-    count += math.ceil(yaw_missing(p, s.angle, goal) / p.angle - 1e-6)
+    if p.n_region > 0 and s.stage == p.n_goals - 1:
+        left = table_bound(p, s)
+        if left >= 0.0:
+            return left
+    return float(plain_bound(p, s))
+
+
+@kernel
+def heuristic_between(p, s, t):
+    """Moves of the body from one pose to the other, and limbs that have to take another hold."""
+    count = moves_between(p, s.pose, t.pose)
     for i in range(p.n_limbs):
-        short = outside(holds[s.hold[i]].along, goal.along_min, goal.along_max) - spans[i]
-        if short > 0.0:
-            count += math.ceil(short / (2.0 * spans[i]) - 1e-6)
+        if s.hold[i] != t.hold[i]:
+            count += 1
     return float(count)
 
 
@@ -130,15 +128,16 @@ def cell(p, s):
 
 
 @kernel
-def spot(p, s, words):
-    """Along, across and yaw in ticks, then the hold of each limb."""
-    words[0], words[1], words[2] = s.pose[ALONG] * TICKS, s.pose[ACROSS] * TICKS, s.pose[YAW] * TICKS
+def body_pose(p, s, words):
+    """The pose in ticks, then the hold of each limb."""
+    for axis in range(AXES):
+        words[axis] = s.pose[axis] * TICKS
     for i in range(LIMBS):
-        words[3 + i] = s.hold[i]
+        words[AXES + i] = s.hold[i]
 
 
 @kernel
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether the body is where goal k asks for."""
     return meets(p, s, goals_of(p)[k])
 
@@ -146,6 +145,8 @@ def aims(p, s, k):
 family_kernels(
     PARAMS,
     step=step,
+    draft=draft,
+    heuristic_between=heuristic_between,
     candidates=candidates,
     key=key,
     restore=restore,
@@ -153,6 +154,6 @@ family_kernels(
     bound=bound,
     done=done,
     cell=cell,
-    spot=spot,
-    aims=aims,
+    body_pose=body_pose,
+    satisfies_goal=satisfies_goal,
 )

@@ -12,6 +12,7 @@ from ....planning.problem.problem import Records
 from ....types import Floats, Ints
 from .checks import SPATIAL_CHECKS
 from .records import HEIGHT, STANCE
+from .robot_arrays import robot_arrays
 
 if TYPE_CHECKING:
     from .task import SpatialTask
@@ -79,7 +80,7 @@ def _nearest(task: "SpatialTask", params: Params, height: int) -> tuple[Ints, Fl
     turn = stance["turn"][0].reshape(3, 3)
     limbs = len(task.robot.chains.limb_names)
     number = min(TRIED if limbs <= 4 else 3, len(task.world.holds))
-    tips = stance["place"][0] + params.array("tips") @ turn.T
+    tips = stance["place"][0] + robot_arrays(task.robot).tips @ turn.T
     apart = np.linalg.norm(task.world.places[None] - tips[:, None], axis=2)
     near = np.argsort(apart, axis=1, kind="stable")[:, :number].astype(np.int32)
     return near, np.take_along_axis(apart, near, axis=1)

@@ -10,11 +10,11 @@ import numpy as np
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, pack_code, unpack
-from ..statics.records import BODY, LIMBS, SEEDS, WORK
+from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
-from .judging_kernels import SCRATCH, copy, judge_stance, robot_of, scratch_of, swing_margin
+from .judging_kernels import SCRATCH, copy, judge_stance, judge_taken, robot_of, scratch_of, swing_margin
 from .poses_kernels import away_from, goals_of, holds_of, meets, place_body
 from .records import AXES, HEIGHT, PITCH, ROLL, YAW
 
@@ -88,23 +88,23 @@ def holds_near(p, s, limb, codes, ranked):
 
 
 @kernel
-def take_hold(p, before, limb, hold, after, margins):
-    """A limb swings from its hold to another: without it, along its path, without it where it goes, and with it; least margins of all."""
+def take_hold(p, before, limb, after, margins):
+    """Judge a limb that swings from its hold to another: without it, along its path, without it where it goes, and with it."""
+    if not carray(pointer(p.rules_at), 1, RULES)[0].exact:
+        return judge_taken(p, before, after, limb, margins)
     least = scratch_of(p)[LEAST : LEAST + SWING + 1]
     for k in range(SWING + 1):
         least[k] = math.nan
-    for i in range(p.n_limbs):
-        if before.hold[i] == hold:
-            margins[0] = NOWHERE
-            return 0
+    hold = after.hold[limb]
+    after.hold[limb] = before.hold[limb]
     broken = judge_stance(p, before, after, limb, -1, margins)
+    after.hold[limb] = hold
     merge_margins(margins, least)
     if broken < 0:
         margins[SWING] = swing_margin(p, before, limb, hold)
         least[SWING] = margins[SWING]
         if p.hard >> SWING & 1 and margins[SWING] < -TOLERANCE:
             return SWING
-        after.hold[limb] = hold
         broken = judge_stance(p, before, after, limb, limb, margins)
         merge_margins(margins, least)
     if broken < 0:
@@ -117,22 +117,45 @@ def take_hold(p, before, limb, hold, after, margins):
 
 
 @kernel
-def move_body(p, argument, after, margins):
-    """Move the body on its lattice; False where the lattice has no such pose."""
+def shift(p, argument, pose):
+    """Carry out a move of the body on a pose; False where the lattice has no such pose."""
     axis = (argument % NEAR) >> 1
-    after.pose[axis] += (1 - 2 * (argument & 1)) * (1 if argument < NEAR else p.far)
+    pose[axis] += (1 - 2 * (argument & 1)) * (1 if argument < NEAR else p.far)
     if axis == YAW:
-        after.pose[YAW] = after.pose[YAW] % p.turns
+        pose[YAW] = pose[YAW] % p.turns
     most = UNLIMITED
     if axis == HEIGHT:
         most = p.heights
     elif axis in (PITCH, ROLL):
         most = p.tilts if p.tilt > 0.0 else 0
-    if abs(after.pose[axis]) > most:
-        margins[0] = NOWHERE
-        return False
-    place_body(p, after, scratch_of(p))
-    return True
+    return abs(pose[axis]) <= most
+
+
+@kernel
+def draft(p, before, code, after):
+    """Write what an action leads to, but for posture, forces and share, which judging tells: 1, or -1 if there is no such action."""
+    copy(before, after)
+    after.count = before.count + 1
+    kind, limb, argument = unpack(code)
+    if kind == MOVE:
+        if not shift(p, argument, after.pose):
+            return -1
+        place_body(p, after, scratch_of(p))
+    elif kind in (HOLD, NEAREST):
+        hold = argument
+        if kind == NEAREST:
+            ranked = scratch_of(p)[RANKED : RANKED + p.nearest]
+            codes = carray(pointer(p.work_at + 8 * (RANKED + 64)), 64, np.int32)
+            if argument >= holds_near(p, before, limb, codes, ranked):
+                return -1
+            _, _, hold = unpack(codes[argument])
+        for i in range(p.n_limbs):
+            if before.hold[i] == hold:
+                return -1
+        after.hold[limb] = hold
+    while after.stage < p.n_goals and meets(p, after, goals_of(p)[after.stage]):
+        after.stage += 1
+    return 1
 
 
 @kernel
@@ -140,26 +163,14 @@ def step(p, before, code, after, margins):
     """Carry out one action and judge it."""
     for k in range(margins.shape[0]):
         margins[k] = math.nan
-    copy(before, after)
-    after.count = before.count + 1
-    kind, limb, argument = unpack(code)
-    broken = -1
-    if kind == MOVE:
-        broken = judge_stance(p, before, after, -1, -1, margins) if move_body(p, argument, after, margins) else 0
-    elif kind == HOLD:
-        broken = take_hold(p, before, limb, argument, after, margins)
-    elif kind == NEAREST:
-        ranked = scratch_of(p)[RANKED : RANKED + p.nearest]
-        codes = carray(pointer(p.work_at + 8 * (RANKED + 64)), 64, np.int32)
-        if argument >= holds_near(p, before, limb, codes, ranked):
-            margins[0] = -UNLIMITED
-            return 0
-        _, limb, hold = unpack(codes[argument])
-        broken = take_hold(p, before, limb, hold, after, margins)
-    else:
-        broken = judge_stance(p, before, after, -1, -1, margins)
-    while broken < 0 and after.stage < p.n_goals and meets(p, after, goals_of(p)[after.stage]):
-        after.stage += 1
+    if draft(p, before, code, after) < 0:
+        margins[0] = NOWHERE
+        return 0
+    kind, limb, _ = unpack(code)
+    grabs = kind in (HOLD, NEAREST)
+    broken = take_hold(p, before, limb, after, margins) if grabs else judge_stance(p, before, after, -1, -1, margins)
+    if broken >= 0:
+        after.stage = before.stage
     return broken
 
 

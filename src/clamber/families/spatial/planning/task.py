@@ -2,19 +2,20 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
+from dataclasses import field, replace
 from typing import Annotated, Final
 
 from pydantic import Field, StrictBool, StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import check_order
 from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
 from ....types import Json
 from ....units import Angle, Length, NonNegativeLength, PositiveAngle, PositiveLength, Quantity
-from ..robot.robot import RobotSpec, SpatialRobot, build_robot
+from ..robot.robot import Payload, RobotSpec, SpatialRobot, build_robot
 from ..world.library import read_world
 from ..world.world import World, build_world
 from .checks import SPATIAL_CHECKS
@@ -65,6 +66,10 @@ class Start:
     """Of the body's origin over the guide [m]."""
     yaw: Angle = 0.0
     """Of the body's x from the guide's direction, about the normal [rad]."""
+    pitch: Angle = 0.0
+    """About the body's y, after the yaw [rad]; with 90 deg on a guide that goes straight up a body that would stand on end lies level."""
+    roll: Angle = 0.0
+    """About the body's x, after the pitch [rad]."""
     holds: Mapping[str, Annotated[int, Field(strict=True, ge=1)]] | None = None
     """Limb -> number of its hold; None: those nearest the nominal tips on which the robot stands best."""
 
@@ -95,6 +100,26 @@ class Goal:
     across_max: Length | None = None
     yaw_min: Angle | None = None
     yaw_max: Angle | None = None
+
+    @property
+    def x_min(self) -> float | None:
+        """Least place along the guide [m]; so for the others."""
+        return self.along_min
+
+    @property
+    def x_max(self) -> float | None:
+        """Largest place along."""
+        return self.along_max
+
+    @property
+    def y_min(self) -> float | None:
+        """Least place across."""
+        return self.across_min
+
+    @property
+    def y_max(self) -> float | None:
+        """Largest place across."""
+        return self.across_max
 
     @property
     def box(self) -> tuple[float, float, float, float]:
@@ -138,10 +163,12 @@ class SpatialTaskSpec:
     subgoals: tuple[Goal, ...] = ()
     """In the order in which they must be met, before `goal`."""
     rules: Rules = Rules()
+    payload: Payload | None = None
+    """What the base carries in this task, in place of the robot's own payload."""
 
 
 @spec
-class SpatialTask:
+class SpatialTask(Pictured):
     """A task with everything resolved, SI."""
 
     name: str
@@ -179,7 +206,10 @@ def build_task(document: Document) -> SpatialTask:
             raise document.problem(
                 key, "asks for nothing; state along_min, along_max, across_min, across_max, or yaw_min and yaw_max"
             )
-    robot, world = build_robot(parts["robot"]), build_world(parts["world"])
+    carrier = parts["robot"]
+    if stated.payload is not None:
+        carrier = replace(carrier, data=carrier.data | {"payload": document.data["payload"]})
+    robot, world = build_robot(carrier), build_world(parts["world"])
     _check_holds(stated.start, robot, world, document)
     return SpatialTask(
         name=stated.name,

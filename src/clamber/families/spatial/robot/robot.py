@@ -9,8 +9,9 @@ from typing import Annotated, Any, ClassVar, Final
 import numpy as np
 from pydantic import Field, StrictStr
 
-from ....errors import describe_choices
+from ....errors import UnknownNameError, describe_choices
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
@@ -103,8 +104,8 @@ class RobotSpec:
     limb: Annotated[tuple[LimbSpec, ...], Field(min_length=1, max_length=MAX_LIMBS)]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpatialRobot:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class SpatialRobot(Pictured):
     """A robot as its file and its model describe it."""
 
     family: ClassVar[str] = FAMILY
@@ -158,16 +159,21 @@ def whole_document(document: Document) -> Document:
     """A robot's document with what it takes from the files of its model and its contacts, so that it can be built where those are not.
 
     Raises:
-        SpecError: If it names no model.
-        UnknownNameError: If no contact has a name that it states.
+        SpecError: If it names no model, or a contact that there is not.
         FileError: If a file can't be read.
     """
     if "parts" in document.data:
         return document
     tree = read_model(model_path(document)).tree
     limbs = document.data.get("limb")
-    named = [limb.get("contact") for limb in limbs if isinstance(limb, dict)] if isinstance(limbs, list) else []
-    contacts = {name: read_contact(name, document.folder).data for name in named if isinstance(name, str)}
+    contacts = {}
+    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
+        named = limb.get("contact") if isinstance(limb, dict) else None
+        if isinstance(named, str) and named not in contacts:
+            try:
+                contacts[named] = read_contact(named, document.folder).data
+            except UnknownNameError as error:
+                raise document.problem(f"limb.{k}.contact", str(error)) from None
     return replace(document, data=document.data | {"parts": _plain(tree), "contacts": contacts})
 
 

@@ -18,6 +18,8 @@ from .tips import guess_nominal, guess_tip
 from .tree import Joint, Posture, Tree, rooted_at
 
 GUESS: Final = "guess"
+NAMED: Final = 20
+"""So many links are named, the others counted."""
 ROOM: Final = 6 * DEGREE
 """That joints keep from their limits, where they can [rad]."""
 THIN: Final = 0.02
@@ -40,7 +42,10 @@ def import_robot(model_file: Path, target: Path, name: str) -> ImportedRobot:
     model = read_model(model_file)
     found = find_limbs(model.tree)
     if not 1 <= len(found.limbs) <= MAX_LIMBS:
-        looked = f"looked at chains to {'; '.join(found.looked)}" if found.looked else "no joint moves a link"
+        links = [link.name for link in model.tree.links]
+        many = f" and {len(links) - NAMED} more" if len(links) > NAMED else ""
+        fixed = f"no joint moves one of its links, {', '.join(links[:NAMED])}{many}"
+        looked = f"looked at chains to {'; '.join(found.looked)}" if found.looked else fixed
         told = f"has {len(found.limbs) or 'no'} limb{'s' if found.limbs else ''}: {looked}"
         allowed = (
             f"a robot has 1 to {MAX_LIMBS} limbs, chains of two joints or more that are not short beside the longest"

@@ -12,7 +12,10 @@ from ....compiled import kernel
 from ....planning.problem.check import UNLIMITED
 from .checks import EQUILIBRIUM, SLIP, TORQUE
 from .programme_kernels import eliminate, maximise
+from .relaxing_kernels import STEPS, relax_forces
 
+ALL = 1.0 - 1e-8
+"""No forces leave more of the limits than this: without weight, none are needed."""
 LEAST_WEIGHT = 0.01 * 9.80665
 """Gravity that forces are counted in at least [m/s^2], so that a robot in free fall has a scale, too."""
 
@@ -100,6 +103,25 @@ def fill_balance(robot, work, weight):
 
 
 @kernel
+def fill_levers(robot, work):
+    """Share of each motor's limit per component of its limb's contact wrench, forces [1/N] and moments [1/(N m)], contact frame."""
+    for limb in range(robot.n_limbs):
+        if not work.bears[limb]:
+            continue
+        frame = work.frame[limb]
+        for k in range(robot.n_joints[limb]):
+            per_limit = 1.0 / robot.torque[limb, k]
+            lever = work.lever[limb, k]
+            jacobian = work.jacobian[limb, k]
+            axis = work.axis[limb, k]
+            turns = per_limit * (1 - robot.sliding[limb, k])
+            for a in range(3):
+                u, v, w = frame[3 * a], frame[3 * a + 1], frame[3 * a + 2]
+                lever[a] = (jacobian[0] * u + jacobian[1] * v + jacobian[2] * w) * per_limit
+                lever[3 + a] = (axis[0] * u + axis[1] * v + axis[2] * w) * turns
+
+
+@kernel
 def put_row(work, row, at, components, layout):
     """Put a row over a contact's wrench (`full`) into `columns` and `bound`, solved unknowns replaced; `layout`: (unknowns, free ones)."""
     n, d = layout
@@ -158,24 +180,10 @@ def fill_rows(robot, work, weight, layout):
                 scale_row(work, m, d, slack[0] * weight + slack[1])
                 m += 1
         for k in range(robot.n_joints[limb]):
-            per_limit = 1.0 / robot.torque[limb, k]
-            load = work.load[limb, k] * per_limit
-            work.bound[m] = -load
+            work.bound[m] = -work.load[limb, k] / robot.torque[limb, k]
             if work.bears[limb]:
-                unit = weight * per_limit
-                jacobian = work.jacobian[limb, k]
-                frame = work.frame[limb]
-                for a in range(3):
-                    full[a] = (
-                        jacobian[0] * frame[3 * a] + jacobian[1] * frame[3 * a + 1] + jacobian[2] * frame[3 * a + 2]
-                    ) * unit
-                if robot.components[limb] == 6:
-                    turns = unit * size * (1 - robot.sliding[limb, k])
-                    axis = work.axis[limb, k]
-                    for a in range(3):
-                        full[3 + a] = (
-                            axis[0] * frame[3 * a] + axis[1] * frame[3 * a + 1] + axis[2] * frame[3 * a + 2]
-                        ) * turns
+                for c in range(robot.components[limb]):
+                    full[c] = work.lever[limb, k, c] * (weight if c < 3 else weight * size)
                 put_row(work, m, at, robot.components[limb], layout)
                 for j in range(d):
                     work.columns[j, m + 1] = -work.columns[j, m]
@@ -222,13 +230,8 @@ def read_margins(robot, work, weight, out):
         for k in range(robot.n_joints[limb]):
             torque = work.load[limb, k]
             if work.bears[limb]:
-                for a in range(3):
-                    for b in range(3):
-                        torque += work.jacobian[limb, k, b] * frame[3 * a + b] * wrench[a]
-                if components == 6 and robot.sliding[limb, k] == 0:
-                    for a in range(3):
-                        for b in range(3):
-                            torque += work.axis[limb, k, b] * frame[3 * a + b] * wrench[3 + a]
+                for c in range(components):
+                    torque += work.lever[limb, k, c] * robot.torque[limb, k] * wrench[c]
             out.torque = max(out.torque, abs(torque))
             margins[TORQUE] = min(margins[TORQUE], robot.torque[limb, k] - abs(torque))
 
@@ -244,6 +247,15 @@ def balance_forces(robot, work, rules, out):
     n = fill_balance(robot, work, weight)
     margins = out.margins
     out.pivots = 0
+    share = relax_forces(robot, work, weight, ALL if rules.exact else rules.need, 0 if rules.exact else STEPS, n)
+    if share > -math.inf:  # if it is less than the need: a motor that its own limb's weight is too much for
+        out.s = share
+        margins[EQUILIBRIUM] = share - rules.need
+        for check in range(TORQUE, SLIP + 3):
+            margins[check] = math.nan
+        if share >= rules.need:
+            read_margins(robot, work, weight, out)
+        return share >= rules.need
     rank = eliminate(work, n)
     if rank < 0:  # as for one or two point contacts: no forces balance, however large
         out.s = -1.0
@@ -272,6 +284,6 @@ def balance_forces(robot, work, rules, out):
                     value -= work.balance[-1 - place, k] * work.point[other]
             work.solution[j] = value
     read_margins(robot, work, weight, out)
-    out.s = lower if lower >= rules.need else upper
+    out.s = upper if upper < rules.need else lower  # where the programme was not settled, what it is sure of
     margins[EQUILIBRIUM] = out.s - rules.need
     return lower >= rules.need

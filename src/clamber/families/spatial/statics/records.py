@@ -93,6 +93,8 @@ CONTACT = np.dtype(
         ("friction", "f8"),  # inf: the end effector's alone
         ("bears", "i4"),  # 0: the tip is there and bears nothing
         ("moved", "i4"),  # 1: it was elsewhere before, so `jump_moved` holds
+        ("known", "i8"),  # 1: the posture is known (`posture` of what is judged), and `error` is what it leaves
+        ("error", "f8"),  # [m]
     ],
     align=True,
 )
@@ -145,6 +147,7 @@ WORK = np.dtype(
         ("jacobian", "f8", (LIMBS, JOINTS, 3)),  # motion of the tip per joint
         ("tip_turn", "f8", (LIMBS, 9)),  # T_base_end, row by row
         ("load", "f8", (LIMBS, JOINTS)),  # generalised gravity of the limb's own links
+        ("lever", "f8", (LIMBS, JOINTS, 6)),  # share of a joint's torque limit per component of its contact's wrench
         ("moments", "f8", (4,)),  # mass, first moment of mass, base frame
         ("gravity", "f8", (3,)),  # base frame
         ("wrench", "f8", (6,)),  # on the base, base frame
@@ -170,6 +173,8 @@ WORK = np.dtype(
         ("price", "f8", (UNKNOWNS,)),
         ("entering", "f8", (UNKNOWNS,)),
         ("solution", "f8", (UNKNOWNS,)),
+        ("gram", "f8", (6, 6)),  # of the equations, factored
+        ("six", "f8", (6,)),
         ("full", "f8", (6,)),
     ],
     align=True,

@@ -1,10 +1,15 @@
-"""Tables of seeds, made once for a robot and kept in memory; limbs that are equal but for their mounts share one."""
+"""Tables of seeds, made once for a robot and kept in memory and on disk; limbs that are equal but for their mounts share one."""
 
+import contextlib
+import hashlib
 from collections import OrderedDict
+from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from ....kernel_cache import cache_folder, cache_problem
+from ....sealed import SealError, read_sealed, write_sealed
 from ....types import Floats, Records
 from .records import JOINTS, SEEDS, WORK
 from .seeds_kernels import TURNS, UNREACHED, refine_seeds, sample_seeds, widen_seeds
@@ -25,8 +30,13 @@ _LIKENESS: Final = ("n_joints", "sliding", "lower", "upper", "nominal", "aligned
 class SeedTable:
     """Seeds of a robot's limbs, and the record that kernels read them by."""
 
-    def __init__(self, robot: Records) -> None:
-        """Make the table of a robot (`robot_record`): under a second and a half, most of it for limbs that are aligned."""
+    def __init__(self, robot: Records, file: Path | None = None) -> None:
+        """The table of a robot (`robot_record`) from a file, or made: under a second and a half, most of it for limbs that are aligned.
+
+        Args:
+            robot: Record of `ROBOT`.
+            file: Where it is read from, and written to where it is not there; None: nowhere.
+        """
         self._record = np.zeros(1, SEEDS)
         row = self._record[0]
         groups: list[int] = []
@@ -55,6 +65,8 @@ class SeedTable:
         self.scores: Floats = np.concatenate([scores for _, scores in made])
         row["n_seeds"] = start
         row["posture_at"], row["score_at"] = self.postures.ctypes.data, self.scores.ctypes.data
+        if file is not None and self._read(file):
+            return
         work = np.zeros(1, WORK)
         for limb in groups:
             moved = _at_its_mount(robot, limb)
@@ -62,6 +74,21 @@ class SeedTable:
             sample_seeds(moved[0], row, limb, work[0], SAMPLES_ALIGNED if aligned else SAMPLES)
             refine_seeds(moved[0], row, limb, work[0], SWEEPS)
             widen_seeds(moved[0], row, limb)
+        if file is not None:
+            with contextlib.suppress(OSError):  # it is made anew another time
+                write_sealed(file, self.scores.tobytes() + self.postures.tobytes())
+
+    def _read(self, file: Path) -> bool:
+        """Take scores and postures from a file; False if there is none that can be trusted."""
+        try:
+            numbers = np.frombuffer(read_sealed(file))
+        except (OSError, SealError, ValueError):
+            return False
+        if len(numbers) != self.scores.size + self.postures.size:
+            return False
+        self.scores[:] = numbers[: self.scores.size]
+        self.postures[:] = numbers[self.scores.size :].reshape(self.postures.shape)
+        return True
 
     @property
     def records(self) -> Records:
@@ -79,10 +106,13 @@ _KEPT: OrderedDict[bytes, SeedTable] = OrderedDict()
 
 
 def seed_table(robot: Records) -> SeedTable:
-    """The table of a robot, from memory where it was made before."""
+    """The table of a robot, from memory or disk where it was made before: the folder's name tells the kernels that made it."""
     key = b"".join(_likeness(robot, limb) for limb in range(int(robot["n_limbs"][0])))
     if key not in _KEPT:
-        _KEPT[key] = SeedTable(robot)
+        folder = cache_folder()
+        made = repr((CELLS, CELLS_ALIGNED, SAMPLES, SAMPLES_ALIGNED, SWEEPS)).encode()
+        file = folder / f"seeds-{hashlib.sha256(made + key).hexdigest()[:32]}.bin"
+        _KEPT[key] = SeedTable(robot, file if folder.is_dir() and cache_problem() is None else None)
     _KEPT.move_to_end(key)
     while len(_KEPT) > MOST_KEPT:
         _KEPT.popitem(last=False)

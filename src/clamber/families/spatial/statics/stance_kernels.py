@@ -7,9 +7,9 @@ from ....planning.problem.check import TOLERANCE, UNLIMITED
 from .alignment_kernels import reach_aligned
 from .checks import EQUILIBRIUM, JOINT, JUMP, LIMB_BODY, LIMB_LIMB, REACH, TILT
 from .collision_kernels import body_gap, limbs_gap
-from .equilibrium_kernels import balance_forces, contact_frame
+from .equilibrium_kernels import balance_forces, contact_frame, fill_levers
 from .gravity_kernels import base_weight, limb_weight
-from .kinematics_kernels import reach_point
+from .kinematics_kernels import limb_frames, reach_point, tip_jacobian
 from .records import CHECKS_OF_STANCE
 from .seeds_kernels import seed_beside, seed_index, take_seed
 
@@ -102,7 +102,14 @@ def judge_postures(robot, tables, body, contacts, before, rules, out, work):
     for limb in range(robot.n_limbs):
         contact = contacts[limb]
         aim_limb(body, contact.place, contact.normal, limb, work)
-        error = solve_limb(robot, tables, limb, work)
+        if contact.known:
+            error = contact.error
+            for k in range(robot.n_joints[limb]):
+                work.posture[limb, k] = out.posture[limb, k]
+            limb_frames(robot, limb, work)
+            tip_jacobian(robot, limb, work)
+        else:
+            error = solve_limb(robot, tables, limb, work)
         reach = min(reach, rules.reach * robot.size - error)
         if reach < -TOLERANCE:
             margins[REACH] = max(reach, -UNLIMITED)
@@ -133,6 +140,57 @@ def judge_postures(robot, tables, body, contacts, before, rules, out, work):
 
 
 @kernel
+def judge_shape(robot, tables, body, contacts, before, rules, out, work):
+    """All checks of a stance that forces don't matter to, as `judge` takes and tells them; `out.judged` is 0 if a limb does not reach."""
+    margins = out.margins
+    for check in range(CHECKS_OF_STANCE):
+        margins[check] = math.nan
+    out.judged = 0
+    out.s = math.nan
+    if not judge_postures(robot, tables, body, contacts, before, rules, out, work):
+        return REACH
+    out.judged = 1
+    first = -1
+    for check in range(JOINT, LIMB_LIMB):
+        if violated(rules, margins, check) and first < 0:
+            first = check
+    if first >= 0 and not rules.exact:
+        return first
+    margins[LIMB_LIMB] = limbs_gap(robot, work) - rules.limb_room
+    if violated(rules, margins, LIMB_LIMB) and first < 0:
+        first = LIMB_LIMB
+        if not rules.exact:
+            return first
+    margins[LIMB_BODY] = body_gap(robot, work) - rules.limb_room
+    if violated(rules, margins, LIMB_BODY) and first < 0:
+        first = LIMB_BODY
+    return first
+
+
+@kernel
+def weigh(robot, body, work):
+    """What acts on base and limbs in the postures that `work` has: gravity, the wrench on the base, the motors' loads and levers."""
+    into_base(body.rotation, body.gravity[0], body.gravity[1], body.gravity[2], work.gravity)
+    w = body.wrench
+    into_base(body.rotation, w[0], w[1], w[2], work.wrench[:3])
+    into_base(body.rotation, w[3], w[4], w[5], work.wrench[3:])
+    base_weight(robot, work)
+    for limb in range(robot.n_limbs):
+        limb_weight(robot, limb, work)
+    fill_levers(robot, work)
+
+
+@kernel
+def judge_forces(robot, rules, out, work):
+    """The checks from `equilibrium` on, after `weigh`, for the limbs that `bears` of `work` names; the first violated hard check, or -1."""
+    balance_forces(robot, work, rules, out)
+    for check in range(EQUILIBRIUM, CHECKS_OF_STANCE):
+        if violated(rules, out.margins, check):
+            return check
+    return -1
+
+
+@kernel
 def judge(robot, tables, body, contacts, before, rules, out, work):
     """All margins of a stance. The posture depends on the stance alone, not on how the robot came there.
 
@@ -150,47 +208,18 @@ def judge(robot, tables, body, contacts, before, rules, out, work):
         Number of the first hard check that is violated (`checks.STANCE_CHECKS`), -1 if none is. With `exact` rules all margins are
         written, unless a limb does not reach its hold.
     """
-    margins = out.margins
-    for check in range(CHECKS_OF_STANCE):
-        margins[check] = math.nan
-    out.judged = 0
-    out.s = math.nan
-    if not judge_postures(robot, tables, body, contacts, before, rules, out, work):
-        return REACH
-    first = -1
-    for check in range(JOINT, LIMB_LIMB):
-        if violated(rules, margins, check) and first < 0:
-            first = check
-    if first >= 0 and not rules.exact:
+    first = judge_shape(robot, tables, body, contacts, before, rules, out, work)
+    if not out.judged or (first >= 0 and not rules.exact):
+        out.judged = 0
         return first
-    margins[LIMB_LIMB] = limbs_gap(robot, work) - rules.limb_room
-    if violated(rules, margins, LIMB_LIMB) and first < 0:
-        first = LIMB_LIMB
-        if not rules.exact:
-            return first
-    margins[LIMB_BODY] = body_gap(robot, work) - rules.limb_room
-    if violated(rules, margins, LIMB_BODY) and first < 0:
-        first = LIMB_BODY
-        if not rules.exact:
-            return first
-    into_base(body.rotation, body.gravity[0], body.gravity[1], body.gravity[2], work.gravity)
-    w = body.wrench
-    into_base(body.rotation, w[0], w[1], w[2], work.wrench[:3])
-    into_base(body.rotation, w[3], w[4], w[5], work.wrench[3:])
-    base_weight(robot, work)
-    for limb in range(robot.n_limbs):
-        limb_weight(robot, limb, work)
-    balance_forces(robot, work, rules, out)
-    for check in range(EQUILIBRIUM, CHECKS_OF_STANCE):
-        if violated(rules, margins, check) and first < 0:
-            first = check
+    weigh(robot, body, work)
+    broken = judge_forces(robot, rules, out, work)
     place_in_world(robot, body, work, out)
     r = body.rotation
     m = work.moments
     for a in range(3):
         out.centre[a] = body.place[a] + (r[3 * a] * m[1] + r[3 * a + 1] * m[2] + r[3 * a + 2] * m[3]) / m[0]
-    out.judged = 1
-    return first
+    return first if first >= 0 else broken
 
 
 @inlined

@@ -8,6 +8,7 @@ from ....errors import FileError
 from ....files import Document, csv_rows, data_names, find_data, read_text, read_toml
 from ....types import Json
 from ....units import split_title
+from .terrain import packed_terrain
 
 DATA: Final = Path(__file__).parents[1] / "data" / "worlds"
 COLUMNS: Final = ("x", "y", "z", "nx", "ny", "nz", "radius", "strength", "friction")
@@ -23,14 +24,24 @@ def world_names() -> tuple[str, ...]:
 
 
 def read_world(name: str, folder: Path | None = None) -> Document:
-    """The document of a world by name or path; a table of holds that it names (`table = "holds.csv"`) is read into it.
+    """The document of a world by name or path; tables of holds (`table = "holds.csv"`) and terrains are read into it.
 
     Raises:
         UnknownNameError: If no world has that name.
         FileError: If a file cannot be read, or a line of the table is wrong.
     """
     path, label = find_data("world", name, (DATA,), folder)
-    document = read_toml(path, label)
+    return read_parts(read_toml(path, label), path.parent)
+
+
+def read_parts(document: Document, folder: Path) -> Document:
+    """A world's document with its table of holds and its terrains in place of their files, which lie in a folder.
+
+    Raises:
+        SpecError: If it states holds twice, or no path.
+        FileError: If a file cannot be read, or a line of the table is wrong.
+    """
+    document = packed_terrain(Document(document.label, document.data, document.overrides, folder))
     table = document.data.get("table")
     if table is None:
         return document
@@ -39,7 +50,7 @@ def read_world(name: str, folder: Path | None = None) -> Document:
     if "holds" in document.data:
         raise document.problem("table", "and 'holds' cannot both be stated")
     data = {key: value for key, value in document.data.items() if key != "table"}
-    data["holds"] = read_holds(path.parent / table)
+    data["holds"] = read_holds(folder / table)
     return Document(document.label, data, document.overrides, document.folder)
 
 

@@ -72,16 +72,23 @@ class Pattern:
     strength: PositiveForce | None = None
     """Of every hold [N]; None: any."""
     radius: PositiveLength = 0.01
-    """Of every hold's patch [m]."""
+    """Of every hold's patch, as it is drawn [m]; no check reads it."""
     seed: Seed = 0
 
-    def points(self, frames: Floats) -> list[tuple[Floats, Floats]]:
+    @property
+    def grid(self) -> float:
+        """Holds that it makes, about, those that are missing left out."""
+        rows, columns = (_number(span, self.spacing) for span in (self.along, self.across))
+        return rows * columns * (1.0 - self.left_out)
+
+    def points(self, frames: Floats, seed: int = 0) -> list[tuple[Floats, Floats]]:
         """Place and normal of each hold, world frame, row by row along the guide.
 
         Args:
             frames: Of the guide, shape (n, 12).
+            seed: Of the world, added to the pattern's own.
         """
-        rng = np.random.default_rng(self.seed)
+        rng = np.random.default_rng(self.seed + seed)
         frames = frames if self.on is None else self.on.frames
         waves = _waves(rng, self.bump_length) if self.bumps > 0.0 else None
         made = []
@@ -116,8 +123,11 @@ def frame_at(frames: Floats, along: float) -> Floats:
 
 
 def _steps(span: Span, spacing: float) -> Floats:
-    number = max(1, round((span[1] - span[0]) / spacing) + 1)
-    return np.linspace(span[0], span[1], number)
+    return np.linspace(span[0], span[1], _number(span, spacing))
+
+
+def _number(span: Span, spacing: float) -> int:
+    return max(1, round((span[1] - span[0]) / spacing) + 1)
 
 
 def _waves(rng: np.random.Generator, length: float) -> Floats:

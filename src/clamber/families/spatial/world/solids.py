@@ -9,13 +9,18 @@ from ....specs import spec
 from ....types import Floats
 from ....units import Place, PositiveLength, Ratio
 
-PLANE, BOX, CYLINDER, TUBE, BAR = 0, 1, 2, 3, 4
+PLANE, BOX, CYLINDER, TUBE, BAR, FIELD = 0, 1, 2, 3, 4, 5
 SOLID: Final = np.dtype(
     [
         ("kind", "i8"),
         ("centre", "f8", (3,)),  # world frame [m]
         ("axes", "f8", (3, 3)),  # of its own frame, as rows, world frame
-        ("size", "f8", (3,)),  # half extents of a box; radius and half length of the others [m]
+        ("size", "f8", (3,)),  # half extents of a box; radius and half length of the others; distance of nodes [m]
+        (
+            "nodes_at",
+            "i8",
+        ),  # distances from a terrain at nodes of a grid [m], 32-bit floats; `centre` is the first of them
+        ("nodes", "i8", (3,)),  # numbers of nodes along the axes
     ],
     align=True,
 )

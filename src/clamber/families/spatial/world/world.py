@@ -1,14 +1,16 @@
 """A world in space: holds as points with normals, solid things that links must miss, gravity, and a guide that bodies go along."""
 
 import math
+from dataclasses import field
 from functools import lru_cache
-from typing import Annotated, Any, Final, Literal
+from typing import Annotated, Any, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import Field, StrictStr
 
 from ....errors import UnknownHoldError
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, spec
 from ....types import Floats, Records
 from ....units import (
@@ -18,13 +20,17 @@ from ....units import (
     PositiveForce,
     Quantity,
 )
+from .fields import DistanceField, distance_field
 from .guide import Waypoint, guide_frames
-from .patterns import Pattern
+from .patterns import Pattern, Seed
 from .solids import SOLID, Direction, Solid, solid_record, unit
+from .terrain import Terrain, check_terrain, holds_on
 
 SCHEMA: Final = "clamber-world-1"
 MOST_HOLDS: Final = 60_000
 """Of a world: keys of stances keep a hold's index in 16 bits."""
+LOOSE: Final = 1.1
+"""How far an estimate of the number of holds may be off [-]."""
 BODIES: Final = {"earth": GRAVITY, "moon": 1.625, "mars": 3.728, "none": 0.0}
 """Free fall at the surface [m/s^2]: standard gravity; Moon and Mars after NASA's fact sheets; weightless."""
 Acceleration = Annotated[float, Quantity("acceleration")]
@@ -46,7 +52,7 @@ class Hold:
     strength: PositiveForce | None = None
     """Largest force of any direction that the hold bears [N]; None: any."""
     radius: Ends = 0.01
-    """Of the patch about its place that can be taken [m]."""
+    """Of the patch that is drawn about its place [m]; no check reads it: whether an end effector fits is the model's maker to say."""
 
     @property
     def x(self) -> float:
@@ -76,14 +82,20 @@ class WorldSpec:
     holds: tuple[Hold, ...] = ()
     patterns: tuple[Pattern, ...] = ()
     """Holds that are generated, numbered after those that are listed."""
+    seed: Seed = 0
+    """Added to the seeds of the patterns: another world of the same kind."""
+    terrain: tuple[Terrain, ...] = ()
+    """Surfaces from files, with the holds that limbs find on them, numbered after all others."""
     solids: tuple[Solid, ...] = ()
     guide: tuple[Waypoint, ...]
     """Corners of the path that bodies go along."""
 
 
 @spec
-class World:
+class World(Pictured):
     """A world with everything resolved, SI, world frame."""
+
+    kind: ClassVar[str] = "world"
 
     name: str
     title: str
@@ -94,6 +106,8 @@ class World:
     solids: tuple[Any, ...]
     guide: tuple[Waypoint, ...]
     """Corners of the path that bodies go along."""
+    fields: tuple[DistanceField, ...] = field(default=(), compare=False)
+    """Of terrains that are solid; `solid_records` has them after the solids."""
 
     @property
     def frames(self) -> Floats:
@@ -123,9 +137,9 @@ class World:
     @property
     def solid_records(self) -> Records:
         """Records of `solids.SOLID`."""
-        rows = np.zeros(len(self.solids), SOLID)
-        for k, solid in enumerate(self.solids):
-            rows[k] = solid_record(solid)
+        rows = np.zeros(len(self.solids) + len(self.fields), SOLID)
+        for k, record in enumerate((*map(solid_record, self.solids), *(one.record for one in self.fields))):
+            rows[k] = record
         return rows
 
 
@@ -146,8 +160,11 @@ def build_world(document: Document) -> World:
             raise document.problem(f"holds.{k}.number", f"must be {k + 1}: holds are numbered in order, from 1")
         if not np.linalg.norm(hold.normal) > 0.0:
             raise document.problem(f"holds.{k}.normal", "must not be zero")
-    for pattern in stated.patterns:
-        for place, normal in pattern.points(frames):
+    for k, pattern in enumerate(stated.patterns):
+        if len(holds) + pattern.grid > LOOSE * MOST_HOLDS:  # before they are made, which takes long
+            allowed = f"makes about {pattern.grid:.0f} holds; a world may have {MOST_HOLDS}"
+            raise document.problem(f"patterns.{k}.spacing", allowed)
+        for place, normal in pattern.points(frames, stated.seed):
             holds.append(
                 Hold(
                     number=len(holds) + 1,
@@ -160,6 +177,12 @@ def build_world(document: Document) -> World:
             )
             if len(holds) > MOST_HOLDS:
                 raise document.problem("patterns", f"make more than {MOST_HOLDS} holds, the most that a world may have")
+    for k, terrain in enumerate(stated.terrain):
+        check_terrain(terrain, f"terrain.{k}", document)
+        holds += _holds_on(terrain, len(holds))
+        if len(holds) > MOST_HOLDS:
+            allowed = f"makes {len(holds)} holds with all before it; a world may have {MOST_HOLDS}"
+            raise document.problem(f"terrain.{k}.spacing", allowed)
     for k, solid in enumerate(stated.solids):
         _check_solid(solid, f"solids.{k}", document)
     gravity = stated.gravity
@@ -170,7 +193,24 @@ def build_world(document: Document) -> World:
         holds=tuple(holds),
         solids=stated.solids,
         guide=stated.guide,
+        fields=tuple(distance_field(one) for one in stated.terrain if one.solid and one.kind != "points"),
     )
+
+
+def _holds_on(terrain: Terrain, before: int) -> list[Hold]:
+    """Holds that a terrain has, numbered after those before it."""
+    found = holds_on(terrain)
+    return [
+        Hold(
+            number=before + k,
+            at=(float(place[0]), float(place[1]), float(place[2])),
+            normal=(float(normal[0]), float(normal[1]), float(normal[2])),
+            friction=terrain.friction,
+            strength=terrain.strength,
+            radius=terrain.radius,
+        )
+        for k, (place, normal) in enumerate(zip(found.places, found.normals, strict=True), 1)
+    ]
 
 
 @lru_cache(maxsize=64)

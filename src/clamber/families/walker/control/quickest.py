@@ -34,7 +34,7 @@ class Gait:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Way:
+class FastestRoute:
     """A way to a place."""
 
     pivot: float
@@ -45,7 +45,9 @@ class Way:
     """That it takes by the robot's speeds; infinite where it cannot be walked [s]."""
 
 
-def quickest_way(robot: WalkerRobot, pose: Floats, place: Floats, heading: float | None, gait: Gait) -> tuple[Way, ...]:
+def quickest_way(
+    robot: WalkerRobot, pose: Floats, place: Floats, heading: float | None, gait: Gait
+) -> tuple[FastestRoute, ...]:
     """Ways to a place, the quickest first: straight with the heading kept, and after each of `PIVOTS`.
 
     Args:
@@ -64,7 +66,9 @@ def quickest_way(robot: WalkerRobot, pose: Floats, place: Floats, heading: float
             twists.append(np.array((0.0, 0.0, math.remainder(heading - turned[2], math.tau))))
         pieces = tuple(twist for twist in twists if np.any(np.abs(twist) > 1e-12))
         radius = robot.legs.radius_delta
-        ways.append(Way(pivot, pieces, walk_seconds(robot, Track.of(pose, pieces, radius), gait) if pieces else 0.0))
+        ways.append(
+            FastestRoute(pivot, pieces, walk_seconds(robot, Track.of(pose, pieces, radius), gait) if pieces else 0.0)
+        )
     return tuple(sorted(ways, key=lambda way: (way.seconds, abs(way.pivot))))
 
 

@@ -87,7 +87,7 @@ def by_twist(start: Floats, twist: Floats, seconds: float, radius: float) -> Tra
     return Track.of(start, [seconds * np.asarray(twist, float)], radius)
 
 
-def toward(a: Floats, b: Floats) -> Floats:
+def twist_between(a: Floats, b: Floats) -> Floats:
     """Twist that takes a frame from pose `a` to pose `b` at a constant rate, the shorter way round: `along_twist` undone, shape (3,)."""
     x, y, turn = seen_from(a, b)
     turn = math.remainder(turn, math.tau)
@@ -121,7 +121,7 @@ def through(start: Floats, poses: Floats, radius: float, *, within: float = 0.0)
         else:
             k = i + 1 + int(np.argmax(off))
             open_pieces += [(k, j), (i, k)]
-    return Track.of(start, [toward(every[i], every[j]) for i, j in pairwise(corners)], radius)
+    return Track.of(start, [twist_between(every[i], every[j]) for i, j in pairwise(corners)], radius)
 
 
 def _apart(a: Floats, b: Floats, radius: float) -> Floats:
@@ -133,6 +133,6 @@ def _apart(a: Floats, b: Floats, radius: float) -> Floats:
 
 def _passed(poses: Floats, ways: Floats, radius: float) -> Floats:
     """How far one piece from the first pose to the last passes each, shape (n,) [m]."""
-    twist, whole = toward(poses[0], poses[-1]), ways[-1] - ways[0]
+    twist, whole = twist_between(poses[0], poses[-1]), ways[-1] - ways[0]
     shares = (ways - ways[0]) / whole if whole > 0.0 else np.zeros(len(ways))
     return _apart(compose(poses[0], np.array([along_twist(twist, float(share)) for share in shares])), poses, radius)

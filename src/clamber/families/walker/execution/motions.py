@@ -25,7 +25,7 @@ from ..control.track import seen_from
 from ..robot.robot import Legs
 from .brake import OVER, Brake
 from .falls import LIGHT
-from .plate_room import ARRIVED, open_share
+from .free_base_freedoms import ARRIVED, open_share
 from .walker import LEGS, RefusedError, Walker, leg_name
 
 ROOM: Final = 0.004

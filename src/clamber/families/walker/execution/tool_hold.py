@@ -3,7 +3,7 @@
 Where on the way that can be, and the arm's aims at every tick.
 
 The arm takes back what the plate does, as the robot reckons it: slides, lifts, levelling, feet that sink in. The tool may also have the
-plate's height, in the phases that leave it free (`plate_room.py`); the rest of the body belongs to the walk.
+plate's height, in the phases that leave it free (`free_base_freedoms.py`); the rest of the body belongs to the walk.
 """
 
 import math
@@ -19,16 +19,16 @@ from ..control.cooperative.closest import ReachSearch
 from ..control.cooperative.cooperator import Cooperator
 from ..control.cooperative.freedoms import weights_of
 from ..control.cooperative.holding import ToolHolder, reachable_part
-from ..control.cooperative.lent_plate import HEIGHT, LentPlate
 from ..control.cooperative.planted_feet import PlantedFeet
+from ..control.cooperative.redundancy_allocation import HEIGHT, RedundancyAllocation
 from ..control.cooperative.settings import Cooperation, own_speeds
 from ..control.cooperative.tool_chain import POSE
 from ..control.track import Track
 from ..robot import WalkerRobot
 from . import motions
 from .arm_swing import check_swing
-from .plate_room import ARRIVED
-from .rehearsed_heights import Heights, rehearse
+from .free_base_freedoms import ARRIVED
+from .predicted_heights import Heights, predict_heights
 from .walker import GENTLY as GENTLY_UP
 from .walker import RefusedError, Walker
 
@@ -134,7 +134,7 @@ class ToolHold:
         self._arm = robot.arm
         self._rest = walker.arm.copy()
         self._ways = _spread(0.0, track.length, GRID)
-        self._heights = rehearse(walker, track, self._rest) if served == "height" else None
+        self._heights = predict_heights(walker, track, self._rest) if served == "height" else None
         self._poses, _ = _plate_poses(walker, track, self._ways, self._heights)
         self._at = 0
         points = np.atleast_2d(np.asarray(points, float))
@@ -161,7 +161,7 @@ class ToolHold:
         self._raised: list[float] = []
         self._lent = None
         if self._heights is not None:
-            self._lent = LentPlate(
+            self._lent = RedundancyAllocation(
                 robot, payload=walker.payload, gain=GAIN, balance=walker.settings.limits.balance,
                 rise=GENTLY_UP * robot.legs.speed, period=walker.period,
             )  # fmt: skip

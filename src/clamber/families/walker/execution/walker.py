@@ -29,9 +29,9 @@ from ..robot import WalkerRobot
 from ..robot.two_frames import FOUND, follow_branch
 from ..robot.weight import weight_of
 from .falls import FallWatch
+from .free_base_freedoms import FreeBaseFreedoms
 from .own_sensors import OwnSensors
 from .plant import WalkerPlant
-from .plate_room import PlateRoom
 from .settings import WalkSettings
 from .touched_ground import TouchedGround
 
@@ -122,7 +122,7 @@ class Walker:
         """Where the legs that do not stand go, and how fast [m], [m/s]."""
         self.height = 0.0
         """Where the plate's height goes [m], slower than the legs can, so that levelling keeps up."""
-        self.room = PlateRoom()
+        self.room = FreeBaseFreedoms()
         """What the present phase leaves of the plate's freedoms."""
         self.wanted = np.zeros(3)
         """Height, beta and gamma of the plate that are kept [m], [rad]."""

@@ -20,7 +20,7 @@ from ....types import Floats
 from ..control.gait import DELTA, PhaseTimes, Step, Y, lengths_at
 from . import motions
 from .calibrate import calibrate, feel_give
-from .course import Course
+from .footstep_plan import FootstepPlan
 from .walk_report import StepReport, WalkReport
 from .walk_trace import PHASES, TracedWalker
 from .walker import LEGS, Walker, leg_name
@@ -96,7 +96,7 @@ def proof_strain(walker: Walker, frame: int) -> Floats:
     return strain
 
 
-Lay: TypeAlias = Callable[[Floats], Course]
+Lay: TypeAlias = Callable[[Floats], FootstepPlan]
 """A course for a robot whose Delta-frame is at a pose x, y [m], heading [rad], shape (3,), once it stands level."""
 Start: TypeAlias = Callable[[], None]
 """Puts a robot on the ground; it may fall there."""
@@ -124,14 +124,14 @@ class Walking(Performer[Step, WalkReport, int, float, float]):
     def __init__(self, walker: TracedWalker, lay: Lay, *, start: Start | None = None, calibrated: bool = True) -> None:
         self.walker, self._lay, self._start, self._calibrated = walker, lay, start, calibrated
         self._stood = False
-        self._course: Course | None = None
+        self._course: FootstepPlan | None = None
         self._marks: list[float] = []
         """When the phases of the present step began, and the last one ended [s]."""
         self._off = math.nan
         self.report = WalkReport()
 
     @property
-    def course(self) -> Course:
+    def course(self) -> FootstepPlan:
         """That was laid when the robot stood ready."""
         assert self._course is not None, "begin first"
         return self._course

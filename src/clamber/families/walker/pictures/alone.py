@@ -24,22 +24,26 @@ BESIDE: Final = 1.0
 """Ground that is shown about what is on it [m]."""
 
 
-def _around(robot: Json, ground: Json) -> WalkerTask:
-    return build_walker_task(
+def _around(document: Json, **shown: Any) -> WalkerTask:
+    """What stands in for a task: a walker that comes with Clamber on level ground, with what is shown in their place."""
+    robot = read_robot(robot_names("walker")[0]).data
+    stand_in = build_walker_task(
         Document(
             "what is shown",
             {
-                "schema": SCHEMA, "name": "alone", "robot": robot, "ground": ground, "goal": {"x_min": "0 m"},
+                "schema": SCHEMA, "name": "alone", "robot": robot, "goal": {"x_min": "0 m"},
+                "ground": {"schema": GROUND_SCHEMA, "name": "level"},
                 "start": {"x": "0 m", "y": "0 m"}, "step": {"length": "1 cm", "angle": "15 deg"}, "rules": {"hard": []},
                 "labels": {"robot": "robot", "ground": "ground"},
             },
         )
     )  # fmt: skip
+    return replace(stand_in, document=stand_in.document | document, **shown)
 
 
 def ground_alone(ground: Ground, document: Json) -> Alone:
-    """A ground from above; the task about it needs some robot that comes with Clamber."""
-    task = replace(_around(read_robot(robot_names("walker")[0]).data, document), goals=())
+    """A ground from above."""
+    task = _around({"ground": document}, world=ground, goals=())
     bounds = *_within(ground, 0, ground.x_min, ground.x_max), *_within(ground, 1, ground.y_min, ground.y_max)
     return Alone(task, bounds, lambda axes: draw_ground(axes, task, bounds))
 
@@ -54,7 +58,7 @@ def _within(ground: Ground, axis: int, low: float, high: float) -> tuple[float, 
 
 def walker_alone(robot: WalkerRobot, document: Json) -> Alone:
     """A walker from above, on its Delta-frame."""
-    task = _around(document, {"schema": GROUND_SCHEMA, "name": "level"})
+    task = _around({"robot": document}, robot=robot)
     stance: Any = PLANS.problem(task).replay(np.zeros(0, np.int32)).stances[0]
     at = settled_moment(task, stance)
     bounds = walker_bounds(task, [at])

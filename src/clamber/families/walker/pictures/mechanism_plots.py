@@ -34,7 +34,7 @@ def draw_regions(frames: TwoFrames, thetas: Sequence[float], path: str | Path) -
     Args:
         frames: The mechanism.
         thetas: Angles of the Y-frame in the Delta-frame [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     rows = math.ceil(len(thetas) / COLUMNS)
     with drawing(path, (2.35 * COLUMNS, 2.5 * rows + 0.7)) as figure:
@@ -107,7 +107,7 @@ def draw_areas(thetas: Sequence[float], areas: Mapping[str, Floats], path: str |
     Args:
         thetas: Angles [deg], shape (n,).
         areas: What they are of -> areas [cm^2], shape (n,).
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.2, 3.8)) as figure:
         axes = figure.subplots()
@@ -135,7 +135,7 @@ def draw_ditch_maps(
         thetas: Angles of the frames [deg], shape (n,).
         directions: Of crossing [deg], shape (m,).
         maps: Title -> widths [mm], shape (n, m).
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     top = max(float(widths.max()) for widths in maps.values())
     with drawing(path, (4.6 * len(maps) + 0.8, 4.2)) as figure:
@@ -161,7 +161,7 @@ def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats
     Args:
         directions: Of crossing [deg], shape (m,).
         curves: Angle of the frames [deg] -> widths [mm], shape (m,).
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (7.6, 3.8)) as figure:
         axes = figure.subplots()
@@ -182,7 +182,7 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
 
     Args:
         crossing: One that was found.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     stances = [(-1, crossing.start.copy())]
     for slide in crossing.slides:

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import yardsticks_of
+from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
@@ -20,7 +20,7 @@ from .alone import ground_alone, walker_alone
 from .report import walk_page
 from .walk_run_view import run_picture
 from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
-from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, walker_bounds
+from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, near_walk, walker_bounds
 
 GHOSTS: Final = 2
 """Stances drawn between start and end, at most: a walker covers most of its own steps."""
@@ -42,7 +42,7 @@ def walker_route(task: WalkerTask, replay: Replay) -> Figure:
     swaps = int(np.sum(np.diff(replay.stances["stands"]) != 0))
     facts = ("Swaps", str(swaps)), ("Way", f"{way / size:.0f} {unit}, Delta-frame")
     height = layout.panel[1]
-    write_facts(panel, replay, yardsticks_of(task), facts, height)
+    write_facts(panel, replay, normalisation_of(task), facts, height)
     for f, (name, colour) in enumerate(zip(NAMES, COLOURS, strict=True)):
         x, y = 1.5 * f + 0.05, height - FACTS - 0.1
         panel.add_line(Line2D([x], [y], marker="o", ms=4, color=colour, ls=""))
@@ -78,6 +78,7 @@ PICTURES: Final = Pictures(
     start_point,
     draw_ground,
     run=run_picture,
+    near=near_walk,
     report=walk_page,
     robot_alone=walker_alone,
     world_alone=ground_alone,

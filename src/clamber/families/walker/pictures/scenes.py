@@ -15,9 +15,9 @@ from ....planning.progress import Listener
 from ....tasks.library import task_names
 from ....types import Floats, Json
 from ....viewing.alone import Alone
-from ....viewing.browser.exhibit import Editor, Exhibit, Planned, Scenes
 from ....viewing.browser.solids import FOV, NARROW, Camera, Scenery
-from ....viewing.film import View
+from ....viewing.browser.viewer_content import Editor, Planned, Scenes, ViewerContent
+from ....viewing.recording import View
 from ....viewing.scene import Bounds, join
 from ..execution.walk_report import LoggedWalk
 from ..execution.walk_trace import WalkTrace
@@ -35,7 +35,7 @@ from .walker_view import WalkerView
 if TYPE_CHECKING:
     import viser
 
-    from ....viewing.browser.stage import Stage
+    from ....viewing.browser.scene_view import SceneView
     from ....viewing.browser.work_panel import Tell
 
 FROM: Final = (-0.45, -1.0, 0.75)
@@ -120,7 +120,7 @@ class WalkScenes(Scenes):
         assert isinstance(view, WalkerView)  # a walker's
         return PlannedWalkFilm(view)
 
-    def exhibit(self, task: Walk | WalkerTask, plan: Plan | Replay | None, label: str = "plan") -> Exhibit:
+    def exhibit(self, task: Walk | WalkerTask, plan: Plan | Replay | None, label: str = "plan") -> ViewerContent:
         """See `Scenes`: of a walk before it has begun its robot at its start, and its way.
 
         Raises:
@@ -130,14 +130,14 @@ class WalkScenes(Scenes):
             return super().exhibit(task, plan, label)
         way = way_poses(task)[:, :2]
         scenery = WalkScenery(walk_bounds(way), task.robot, task.ground, way=way)
-        return Exhibit(task.title or task.name, scenery, StandingFilm(task), task=task, planned=False)
+        return ViewerContent(task.title or task.name, scenery, StandingFilm(task), task=task, planned=False)
 
-    def run_film(self, exhibit: Exhibit, run: WalkRun) -> WalkFilm:
+    def run_film(self, exhibit: ViewerContent, run: WalkRun) -> WalkFilm:
         """See `Scenes`."""
         walk = run.walk
         return WalkFilm(walk.robot, walk.ground, run.true, run.report.to_json(), exhibit.title, payload=walk.payload)
 
-    def with_log(self, exhibit: Exhibit, log: Log) -> Exhibit:
+    def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
         """See `Scenes`; beside a walk's log there is nothing to edit."""
         work, trace = exhibit.task, WalkTrace.from_log(log)
         told_of(trace.notes, LoggedWalk, log.label)
@@ -146,7 +146,9 @@ class WalkScenes(Scenes):
         bounds = walk_bounds(trace.believed[:, :2])
         if isinstance(work, Walk):
             scenery = WalkScenery(bounds, work.robot, work.ground)
-            return Exhibit(exhibit.title, scenery, None, _logged_film(scenery, trace, exhibit.title, work.payload))
+            return ViewerContent(
+                exhibit.title, scenery, None, _logged_film(scenery, trace, exhibit.title, work.payload)
+            )
         scenery = replace(self.scenery(work, bounds), bounds=join(exhibit.scenery.bounds, bounds))
         film = _logged_film(scenery, trace, exhibit.title, work.start.payload)
         return replace(exhibit, scenery=scenery, run_film=film)
@@ -162,7 +164,7 @@ class WalkScenes(Scenes):
         return ""
 
     def editor(
-        self, server: "viser.ViserServer", task: Walk | WalkerTask, stage: "Stage", changed: Callable[[Any], None]
+        self, server: "viser.ViserServer", task: Walk | WalkerTask, stage: "SceneView", changed: Callable[[Any], None]
     ) -> Editor:
         """See `Scenes`."""
         return GroundPanel(server, task, lambda: stage.scenery.bounds, changed)

@@ -204,6 +204,7 @@ class WalkerFigure(Figure):
         """Put everything where a moment has it; the centre of mass is red where the step is tight or worse."""
         shapes = at.shapes
         delta, star = shapes.frames
+        self.middle = delta[:3].mean(axis=0)
         y = star[[0, 2, 4]]
         middle = star[1]
         ends = np.concatenate([

@@ -91,7 +91,7 @@ def draw_follow(run: FollowRun, path: str | Path) -> None:
 
     Args:
         run: What was followed.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (10.0, 5.2)) as figure:
         grid = figure.add_gridspec(2, 2, width_ratios=(1.35, 1.0))
@@ -161,7 +161,7 @@ def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> N
     Args:
         motions: Each with a row for each time.
         time: [s], shape (rows,).
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     joints = motions[0].q.shape[1] - POSE
     with drawing(path, (12.0, 6.1)) as figure:
@@ -193,7 +193,7 @@ def draw_gains(time: Floats, courses: Mapping[float, Floats], means: Mapping[int
         time: [s], shape (rows,).
         courses: k_p -> V [-], shape (rows,).
         means: Degrees of freedom -> mean V by way and gain, shape (ways, gains).
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     gains = list(courses)
     with drawing(path, (9.4, 3.8)) as figure:
@@ -222,7 +222,7 @@ def draw_freedoms(means: Floats, dofs: Sequence[int], gains: Sequence[float], pa
         means: Mean V, shape (gains, ways, sets).
         dofs: Degrees of freedom of each set.
         gains: k_p of each panel.
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (9.4, 3.6)) as figure:
         for axes, gain, values in zip(figure.subplots(1, len(gains), sharey=True), gains, means, strict=True):

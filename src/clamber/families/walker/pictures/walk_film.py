@@ -7,11 +7,12 @@ import numpy as np
 
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
-from ....viewing.film import Film, MarginRow
+from ....viewing.recording import MarginRow, Recording
 from ..control.gait import lengths_at
 from ..control.track import Track, straight
 from ..control.walker_balance import mass_centre
 from ..execution.true_walk import TrueWalk, hull_margins
+from ..execution.walk_scene import plate_axes
 from ..execution.walk_trace import WalkTrace
 from ..planning import Walk
 from ..robot import WalkerRobot
@@ -20,7 +21,7 @@ from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
 from .space import WalkMoment
 from .walker_loads import WalkLoads, actuator_gauges, leg_force_gauges, leg_gauges, plate_normals
-from .walker_motion import NAMES, WalkerMoment, WalkShapes, plate_axes, shapes_at
+from .walker_motion import NAMES, WalkerMoment, WalkShapes, shapes_at
 from .walker_view import WalkerView
 
 USUAL: Final = 16.0
@@ -38,7 +39,7 @@ BALANCE: Final = (
 )
 
 
-class PlannedWalkFilm(Film[WalkMoment]):
+class PlannedWalkFilm(Recording[WalkMoment]):
     """A planned walk: the plan's moments, which know no heights, put onto the ground.
 
     Args:
@@ -57,7 +58,7 @@ class PlannedWalkFilm(Film[WalkMoment]):
         self._sampled: tuple[Floats, Floats] | None = None
 
     def at(self, time: float) -> WalkMoment:
-        """See `Film`."""
+        """See `Recording`."""
         return self.on_ground(self._film.at(time))
 
     def on_ground(self, at: WalkerMoment) -> WalkMoment:
@@ -99,11 +100,11 @@ class PlannedWalkFilm(Film[WalkMoment]):
         return float(times[np.argmin(np.square(off).sum(axis=(1, 2)))])
 
     def values(self, at: WalkMoment) -> tuple[Floats, ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return at.loads
 
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
+        """See `Recording`."""
         words = []
         for name, (x, y, angle), touching in zip(NAMES, at.poses.tolist(), at.shapes.touching, strict=True):
             turn = math.remainder(angle, math.tau) / DEGREE
@@ -116,16 +117,16 @@ class PlannedWalkFilm(Film[WalkMoment]):
         return tuple(words)
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`."""
+        """See `Recording`."""
         return self._film.margins(step)
 
     @property
     def worst(self) -> int | None:
-        """See `Film`."""
+        """See `Recording`."""
         return self._film.worst
 
 
-class WalkFilm(Film[WalkMoment]):
+class WalkFilm(Recording[WalkMoment]):
     """A walk as it truly was, in its own time.
 
     Args:
@@ -188,7 +189,7 @@ class WalkFilm(Film[WalkMoment]):
         return 3 if math.isnan(share) or share >= 0.3 else 2 if share >= 0.1 else 1
 
     def at(self, time: float) -> WalkMoment:
-        """See `Film`."""
+        """See `Recording`."""
         trace = self._trace
         k = min(int(np.searchsorted(trace.time, time)), len(trace.time) - 1)
         shapes = shapes_at(self._robot, trace, k)
@@ -201,16 +202,16 @@ class WalkFilm(Film[WalkMoment]):
             float(self._margins[k]),
         )  # fmt: skip
 
-    def planned_time(self, time: float, plan: Film[WalkMoment]) -> float | None:
-        """See `Film`: where the plan's frames are nearest to those of the run."""
+    def planned_time(self, time: float, plan: Recording[WalkMoment]) -> float | None:
+        """See `Recording`: where the plan's frames are nearest to those of the run."""
         return plan.nearest(self.at(time).poses) if isinstance(plan, PlannedWalkFilm) else None
 
     def values(self, at: WalkMoment) -> tuple[Floats, ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return at.loads
 
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
+        """See `Recording`."""
         x, y, alpha = at.poses[0]
         balance = f"{1e3 * at.margin:.0f} mm inside the standing feet" if math.isfinite(at.margin) else "not told"
         told = [
@@ -233,7 +234,7 @@ class WalkFilm(Film[WalkMoment]):
         return tuple(told)
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`: the least of a step."""
+        """See `Recording`: the least of a step."""
         if step == 0:
             return []
         rows, least = self._rows_of(step), self._least[step - 1]
@@ -247,7 +248,7 @@ class WalkFilm(Film[WalkMoment]):
 
     @property
     def worst(self) -> int | None:
-        """See `Film`."""
+        """See `Recording`."""
         known = [k for k, least in enumerate(self._least) if not math.isnan(least)]
         return 1 + min(known, key=lambda k: self._least[k]) if known else None
 
@@ -299,7 +300,7 @@ def _true_margins(trace: TrueWalk) -> Floats:
     return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
 
 
-class StandingFilm(Film[WalkMoment]):
+class StandingFilm(Recording[WalkMoment]):
     """The start of a walk, which has no plan.
 
     Args:
@@ -322,15 +323,15 @@ class StandingFilm(Film[WalkMoment]):
         self._start = start
 
     def at(self, time: float) -> WalkMoment:
-        """See `Film`."""
+        """See `Recording`."""
         return self._moment
 
     def values(self, at: WalkMoment) -> tuple[Floats, ...]:
-        """See `Film`."""
+        """See `Recording`."""
         return at.loads
 
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
+        """See `Recording`."""
         start = self._start
         return (
             ("Plate", f"x {start.x + 0.0:.3f} m,  y {start.y + 0.0:.3f} m,  {start.heading / DEGREE + 0.0:.1f}°"),
@@ -338,7 +339,7 @@ class StandingFilm(Film[WalkMoment]):
         )
 
     def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`: nothing has happened."""
+        """See `Recording`: nothing has happened."""
         return []
 
 

@@ -22,7 +22,7 @@ EVERY: Final = 8
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Tilts:
     """Inclines over time."""
 
     time: Floats
@@ -37,13 +37,13 @@ class Course:
     """Times between which legs move [s]."""
 
 
-def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | Path) -> None:
+def draw_inclining(courses: Mapping[str, Tilts], *, within: float, path: str | Path) -> None:
     """Draw what is wanted and read, and below it the plate's true error.
 
     Args:
         courses: Title -> course; a column each.
         within: Error that is allowed at rest [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (4.9 * len(courses), 5.0)) as figure:
         grid = figure.subplots(2, len(courses), sharex="col", sharey="row", squeeze=False, height_ratios=(1.5, 1.0))
@@ -56,7 +56,7 @@ def draw_inclining(courses: Mapping[str, Course], *, within: float, path: str | 
         grid[0, 0].legend(fontsize=8, loc="lower left")
 
 
-def _draw_inclines(axes: Axes, course: Course) -> None:
+def _draw_inclines(axes: Axes, course: Tilts) -> None:
     _shade(axes, course)
     for k, (name, colour) in enumerate(zip(AXES, style.PARTS, strict=False)):
         axes.plot(course.time, course.read[:, k], color=colour, lw=1.2, label=f"read {name}")
@@ -64,7 +64,7 @@ def _draw_inclines(axes: Axes, course: Course) -> None:
     style.bare(axes)
 
 
-def _draw_error(axes: Axes, course: Course, within: float) -> None:
+def _draw_error(axes: Axes, course: Tilts, within: float) -> None:
     _shade(axes, course)
     error = np.hypot(*(course.true - course.wanted).T)
     for begin, arrive in course.moves:
@@ -78,7 +78,7 @@ def _draw_error(axes: Axes, course: Course, within: float) -> None:
     style.bare(axes)
 
 
-def _shade(axes: Axes, course: Course) -> None:
+def _shade(axes: Axes, course: Tilts) -> None:
     for begin, arrive in course.moves:
         axes.axvspan(begin, arrive, color=MOVING, lw=0, zorder=0)
 
@@ -91,7 +91,7 @@ def draw_directions(tilts: Floats, angles: Floats, right: Floats, told: Floats, 
         angles: Steepest angle by beta and gamma [deg], shape (n, n).
         right: Its direction, likewise [rad].
         told: The direction that the equation gives, likewise [rad].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (6.0, 6.0)) as figure:
         axes = figure.subplots()
@@ -126,7 +126,7 @@ def draw_levelling(
         level: Name -> walk with the plate kept level.
         tilted: The same names -> walks with the plate as the slope.
         within: What counts as level [deg].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (3.6 * len(level), 4.6)) as figure:
         grid = figure.subplots(2, len(level), sharex=True, sharey="row", squeeze=False)
@@ -172,7 +172,7 @@ def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, f
     Args:
         runs: Name -> walk.
         centres: Name -> point that it turned about, where it did, in the Delta-frame at the start [m].
-        path: Of the picture (`drawing`).
+        path: Picture file (`drawing`).
     """
     with drawing(path, (6.2, 5.2)) as figure:
         axes = figure.add_subplot()

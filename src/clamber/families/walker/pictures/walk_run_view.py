@@ -10,19 +10,19 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Polygon
+from matplotlib.patches import Patch, Polygon
 
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.film import Frame
+from ....viewing.recording import Frame
 from ....viewing.scene import draw_forbidden
 from ....viewing.style import bare
 from ..execution.true_walk import TrueWalk
 from ..robot import WalkerRobot
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground, Surface
-from .walker_motion import COLOURS, WalkShapes, shapes_at
+from .walker_motion import COLOURS, NAMES, WalkShapes, shapes_at
 
 ROOM: Final = 0.45
 """About the plate's way, that is shown [m] ..."""
@@ -75,11 +75,30 @@ class WalkRunView:
             _curve(places["tilt"], trace, trace.tilts / DEGREE, "tilt of the plate [deg]"),
             _curve(places["margin"], trace, 1e3 * trace.margins, "margin of balance [mm]"),
         ]
+        self._tell_parts()
         self.walkers = [_Drawn(self.side, self.from_side), _Drawn(self.top, _from_above, support=True)]
         self.time_text = self.side.text(
             0.99, 0.97, "", transform=self.side.transAxes, ha="right", va="top", fontsize=8.5
         )
         self.show(0, len(trace.time) - 1)
+
+    def _tell_parts(self) -> None:
+        """Say below all of it what lines and marks are."""
+        arm = [Line2D([], [], color=style.BODY, lw=3.0, label="arm")] if self.robot.arm is not None else []
+        feet = [
+            Line2D([], [], ls="", marker="o", ms=4.5, color=style.QUIET, mfc=face, label=words)
+            for face, words in ((style.QUIET, "foot on the ground"), (style.PAPER, "foot in the air"))
+        ]
+        parts = [Line2D([], [], color=colour, lw=3.0, label=name) for colour, name in zip(COLOURS, NAMES, strict=True)]
+        self.figure.legend(
+            handles=[
+                *parts, Line2D([], [], color=style.INK, lw=1.2, label="actuator"), *arm, *feet,
+                Line2D([], [], ls="", marker=".", ms=4.0, color=COLOURS[0], alpha=0.7, label="footprint"),
+                Line2D([], [], ls="", marker="+", ms=8.0, mew=1.4, color=style.INK, label="centre of mass"),
+                Patch(fc="#8FA3B5", alpha=0.35, label="support"),
+            ],
+            loc="outside lower center", ncols=5, fontsize=7.5,
+        )  # fmt: skip
 
     @property
     def artists(self) -> list[Artist]:

@@ -10,9 +10,10 @@ from ....viewing import style
 from ....viewing.panel import Gauges
 from ..control.gait import lengths_at
 from ..execution.true_walk import TrueWalk
+from ..execution.walk_scene import plate_axes
 from ..robot import FRAMES, WalkerRobot
 from ..world.ground import Ground
-from .walker_motion import COLOURS, plate_axes
+from .walker_motion import COLOURS
 
 LEGS: Final = tuple(f"{frame.capitalize()} leg {i + 1}" for frame in FRAMES for i in range(3))
 ACTUATORS: Final = tuple(f"actuator {i + 1}" for i in range(3))

@@ -8,8 +8,9 @@ import numpy as np
 
 from ....types import Floats, Ints
 from ....viewing import style
-from ....viewing.film import Part
+from ....viewing.recording import Part
 from ..execution.true_walk import TrueWalk
+from ..execution.walk_scene import plate_axes
 from ..planning.problem import WalkerOutline, carried_weight, outline
 from ..planning.task import WalkerTask
 from ..robot import FRAMES, WalkerRobot
@@ -60,18 +61,6 @@ def shapes_at(robot: WalkerRobot, trace: TrueWalk, k: int) -> WalkShapes:
         trace.touching[k],
         np.array((origin, shoulder, trace.tool[k])),
         trace.centre[k],
-    )
-
-
-def plate_axes(alpha: float | Floats, beta: float | Floats, gamma: float | Floats) -> Floats:
-    """The plate's axes in the world as columns, R = Rz(alpha) Ry(beta) Rx(gamma), shape (3, 3), or (3, 3, n) of n angles each."""
-    (ca, sa), (cb, sb), (cg, sg) = ((np.cos(t), np.sin(t)) for t in (alpha, beta, gamma))
-    return np.array(
-        (
-            (ca * cb, ca * sb * sg - sa * cg, ca * sb * cg + sa * sg),
-            (sa * cb, sa * sb * sg + ca * cg, sa * sb * cg - ca * sg),
-            (-sb, cb * sg, cb * cg),
-        )
     )
 
 

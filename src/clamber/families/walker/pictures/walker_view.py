@@ -7,13 +7,13 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
-from matplotlib.patches import Circle, Polygon
+from matplotlib.patches import Circle, Polygon, Rectangle
 
 from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....units import DEGREE
 from ....viewing import style
-from ....viewing.film import Part, PlanView
+from ....viewing.recording import Part, PlanView
 from ....viewing.scene import (
     Bounds,
     describe_pose,
@@ -26,7 +26,7 @@ from ....viewing.scene import (
     name_goal,
     set_axes,
 )
-from ....viewing.view import Picture
+from ....viewing.view import CloseUp, Picture
 from ..planning.task import WalkerTask
 from ..statics.checks import WALKER_CHECKS
 from ..world.ground import Block
@@ -173,7 +173,7 @@ def mixed(colour: str, lift: float) -> tuple[float, float, float]:
 
 
 def draw_key(panel: Axes, left: float, y: float) -> None:
-    """Say in the panel, in inches, what the marks mean."""
+    """Say in the panel, in inches, what marks, lines and hatching mean."""
     paper, ink, quiet = style.PAPER, style.INK, style.QUIET
     entries: tuple[tuple[str, str, str, float, str], ...] = (
         ("o", quiet, quiet, 0.0, "standing foot"),
@@ -185,6 +185,17 @@ def draw_key(panel: Axes, left: float, y: float) -> None:
     for marker, face, edge, x, words in entries:
         panel.plot([left + x + 0.06], [y], marker=marker, ms=7, mfc=face, mec=edge, mew=1.3, ls="", clip_on=False)
         panel.text(left + x + 0.17, y, words, fontsize=7, va="center", color=quiet)
+    lower = y - 0.2
+    for x, colour, width, words in (
+        (0.0, ink, 1.2, "actuator"),
+        (1.02, COLOURS[0], 3.0, ""),
+        (1.22, COLOURS[1], 3.0, "frames"),
+    ):
+        panel.plot([left + x, left + x + 0.14], [lower, lower], color=colour, lw=width, clip_on=False)
+        panel.text(left + x + 0.2, lower, words, fontsize=7, va="center", color=quiet)
+    patch = Rectangle((left + 1.88, lower - 0.05), 0.14, 0.1, fc="#ECEEF1", ec=quiet, hatch="//////", lw=0.6)
+    panel.add_patch(patch)
+    panel.text(left + 2.08, lower, "no foot may stand here", fontsize=7, va="center", color=quiet)
 
 
 class WalkerView(PlanView[WalkerMoment]):
@@ -246,6 +257,18 @@ def describe_walk(task: WalkerTask, before: WalkerMoment, after: WalkerMoment, r
         elif abs(turn) > 1e-9:
             words = f"{lifted} turns {turn / DEGREE:+.3g}°"
     return words if reason < 0 else f"{words}, violates {WALKER_CHECKS[reason].name}"
+
+
+def near_walk(task: WalkerTask, stance: np.void) -> CloseUp:
+    """One stance with the part of the ground about it."""
+    at = settled_moment(task, stance)
+    bounds = fit_bounds(np.vstack([*at.outline.frames, at.outline.feet.reshape(-1, 2)]), ())
+
+    def draw(axes: Axes) -> None:
+        draw_ground(axes, task, bounds)
+        WalkerArtists(axes, task, bounds).update(at)
+
+    return CloseUp(bounds, draw)
 
 
 def draw_walk(task: WalkerTask, stance: np.void, axes: Axes) -> None:

@@ -83,7 +83,7 @@ class WalkerPlans(PlanFamily):
         opened = Code.of(code)
         return MOVES[opened.argument] if opened.kind == "move" else "swap"
 
-    def pose(self, stance: np.void) -> tuple[float, float, float]:
+    def pose(self, task: WalkerTask, stance: np.void) -> tuple[float, float, float]:
         """Place [m] and angle [rad] of the Delta-frame, world frame."""
         return float(stance["x"]), float(stance["y"]), float(stance["angle"])
 

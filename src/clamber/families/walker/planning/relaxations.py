@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Final
 
-from ....planning.openings.relaxations import Relaxation, Switch, key_dial
+from ....planning.infeasibility.relaxations import Relaxation, Switch, key_dial
 from ....toml_text import toml_value
 from .task import WalkerTask
 

@@ -203,7 +203,7 @@ def restore(p, words, s):
 
 
 @kernel
-def freer(p, s, which, t):
+def dominating(p, s, which, t):
     """Write the stance number `which` that has met more goals; False if there is none of that number.
 
     The goals that it still needs are the last of those that `s` needs, and every action is judged alike there.
@@ -251,20 +251,20 @@ def bound(p, s):
 
 
 @inlined
-def spot(p, s, words):
+def body_pose(p, s, words):
     """Where a stance is: the Delta-frame's pose in ticks."""
     for i in range(3):
         words[i] = s.ticks[DELTA, i]
 
 
 @inlined
-def aims(p, s, k):
+def satisfies_goal(p, s, k):
     """Whether a stance is where goal k asks for."""
     return meets(s, walker_goals(p)[k])
 
 
 @kernel
-def toward(p, s, t):
+def heuristic_between(p, s, t):
     """An admissible, consistent number of actions from a stance to another's key.
 
     A move takes the lifted frame one step or turn; only a swap changes which frame that is. A frame that stands now and at the end, and
@@ -288,10 +288,10 @@ family_kernels(
     restore=restore,
     measure=measure,
     bound=bound,
-    freer=freer,
+    dominating=dominating,
     done=done,
     cell=cell,
-    spot=spot,
-    aims=aims,
-    toward=toward,
+    body_pose=body_pose,
+    satisfies_goal=satisfies_goal,
+    heuristic_between=heuristic_between,
 )

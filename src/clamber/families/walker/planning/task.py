@@ -8,6 +8,7 @@ from typing import Annotated, Final, Literal
 from pydantic import StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import GoalBox
@@ -87,7 +88,7 @@ class WalkerTaskSpec:
 
 
 @spec
-class WalkerTask:
+class WalkerTask(Pictured):
     """A task with everything resolved: SI units, point goals as boxes."""
 
     name: str

@@ -3,12 +3,13 @@
 import math
 from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Annotated, Final, Literal
+from typing import Annotated, ClassVar, Final, Literal
 
 import numpy as np
 from pydantic import StrictBool, StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import OneLine
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....types import Floats, Json
@@ -103,8 +104,10 @@ class WalkSpec:
 
 
 @spec
-class Walk:
+class Walk(OneLine):
     """A walk with everything resolved, in SI units."""
+
+    kind: ClassVar[str] = "walk"
 
     name: str
     title: str

@@ -7,6 +7,7 @@ from typing import Annotated, ClassVar, Final
 from pydantic import StrictStr
 
 from ....files import Document, check_schema
+from ....notebook import Pictured
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Floats
 from ....units import (
@@ -123,7 +124,7 @@ FRAMES: Final = ("delta", "y")
 
 
 @spec
-class WalkerRobot:
+class WalkerRobot(Pictured):
     """A two-frame walker in SI units. Both frames have their origin in the middle of their feet."""
 
     family: ClassVar[str] = "walker"

@@ -12,7 +12,7 @@ from ....planning.problem.problems import plan_family
 from ....tasks.library import change_task
 from ....types import Floats, Ints
 from ..control.gait import Limits
-from ..execution.course import PlannedCourse, PlannedStep
+from ..execution.footstep_plan import PlannedCourse, PlannedStep
 from ..execution.walking import Lay
 from ..planning import Walk
 from ..planning.task import WalkerTask

@@ -12,10 +12,12 @@ import numpy as np
 
 from ....errors import UnitError, describe_choices
 from ....execution.fault import Fault
+from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.run_report import RunEndedError
 from ....execution.sequencer import Sequencer
 from ....json_form import HIDDEN, INLINE, Jsonable, Key, OrNull, in_json
+from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....sim.plant_rules import PlantError
 from ....types import Floats
@@ -23,11 +25,12 @@ from ....units import parse_quantity
 from ..control.gait import Limits
 from ..control.quickest import Gait, quickest_way
 from ..control.track import Track, through
-from ..execution.course import Course, PlannedCourse, PlannedStep, TrackCourse
 from ..execution.faulty_walker import FaultyWalker
+from ..execution.footstep_plan import FootstepPlan, PlannedCourse, PlannedStep, TrackCourse
 from ..execution.settings import WalkSettings
 from ..execution.true_walk import TracedPlant, TrueWalk
 from ..execution.walk_report import WalkReport
+from ..execution.walk_scene import walk_scene
 from ..execution.walk_trace import TOPIC, TracedWalker, WalkTrace, walker_notes
 from ..execution.walker import RefusedError
 from ..execution.walking import Lay, Progress, Walking
@@ -100,8 +103,8 @@ WITHIN: Final = 0.005
 """So near are places of a path passed [m]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class WalkRun(Jsonable):
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class WalkRun(Jsonable, Pictured):
     """A walk that was carried out; exit code 1 where it is not done."""
 
     walk: Annotated[Walk, Key(get=attrgetter("name"), kind=str, after="steps")]
@@ -141,6 +144,16 @@ class WalkRun(Jsonable):
             return report.reason
         off = math.dist(self.true.pose[-1, :2], report.pose[:2])
         return "" if off <= LOST else f"lost: the robot is {1e3 * off:.0f} mm from where it believes to be"
+
+    @property
+    def scene(self) -> LoggedScene:
+        """See `CarriedOut`."""
+        true, arm = self.trace.true_pose is not None, self.trace.true_tool is not None
+        return walk_scene(self.walk.robot, self.walk.ground, true=true, arm=arm)
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def walking(self) -> slice:
@@ -260,7 +273,7 @@ def run_walk(
     walker = TracedWalker(walk.robot, plant, settings=how, payload=walk.payload)
     holds: list[LaidHold] = []
 
-    def lay_with_hold(pose: Floats) -> Course:
+    def lay_with_hold(pose: Floats) -> FootstepPlan:
         if walk.hold is not None:
             holds.append(lay_hold(walker, lay_track(walk, pose), walk.hold))
             holds[0].hold.start(walker)
@@ -268,7 +281,9 @@ def run_walk(
 
     calibrated = noise.widths["inclinometer_offset"] == 0.0
     walking = Walking(walker, lay_with_hold, start=lambda: stand(walker, walk), calibrated=calibrated)
-    with growing_log(log, walker.samples, walker.titles, walker_notes(), TOPIC) as finish:
+    titles = walker.titles
+    scene = walk_scene(walk.robot, walk.ground, true="plate x true [m]" in titles, arm="tool x true [m]" in titles)
+    with growing_log(log, walker.samples, titles, walker_notes(), TOPIC, scene) as finish:
         report = Sequencer(walking, progress=progress).run()
         notes = report.to_json() | {"walk": walk.name, "noise": noise.to_json(), "seed": seed}
         gap = finish(notes)

@@ -163,6 +163,11 @@ class WalkSetup(Setup[WalkRun, WalkTrial]):
     """Kinds of faults, one of which each trial has; none without."""
 
     @property
+    def work(self) -> Walk | WalkerTask:
+        """See `Setup`."""
+        return self.walked
+
+    @property
     def name(self) -> str:
         """Of what is walked."""
         return self.walked.name
@@ -233,7 +238,7 @@ class WalkSetup(Setup[WalkRun, WalkTrial]):
         return run, judged(seed, run)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
     """Walks that ended."""
 

@@ -1,13 +1,14 @@
 """A ground to walk on: a slope with blocks, ditches, rough parts and forbidden patches on it, seen as an exact height above every place."""
 
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated, ClassVar, Final
 
 import numpy as np
 import numpy.typing as npt
 from pydantic import Field, StrictInt, StrictStr
 
 from ....files import Document, check_schema, data_names, find_data, read_toml
+from ....notebook import Pictured
 from ....specs import Name, build_spec, spec
 from ....tasks.regions import check_polygon
 from ....types import Floats
@@ -75,11 +76,13 @@ class Rough(Rectangle):
 
 
 @spec
-class Ground:
+class Ground(Pictured):
     """Ground in SI units. World frame: x and y level, z up; the ground's frame is tilted about a level axis through the same origin.
 
     A slope of 0 makes both frames one. Rectangles are right-angled to the slope: so are the walls of steps and ditches.
     """
+
+    kind: ClassVar[str] = "ground"
 
     name: Name
     title: StrictStr = ""

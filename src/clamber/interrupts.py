@@ -1,0 +1,128 @@
+"""Ctrl-C: what is asked to end is asked again until somebody answers, because an exception that is raised in compiled code may be lost."""
+
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from types import FrameType
+from typing import Any, Final, TypeVar
+
+T = TypeVar("T")
+
+AGAIN: Final = 0.4
+"""Whoever has not answered is interrupted again after so long [s]."""
+
+
+@dataclass(slots=True)
+class _Interrupts:
+    """What became of Ctrl-C in this process."""
+
+    asked: bool = False
+    """Whether there was one since the command began."""
+    open: bool = False
+    """Whether the last one has no answer yet."""
+    wholes: int = 0
+    """Blocks of `passed_on` that are open."""
+
+
+_now: Final = _Interrupts()
+
+
+def answer() -> None:
+    """Take Ctrl-C as heard; called first by whoever catches it and then ends with what there is.
+
+    Raises:
+        KeyboardInterrupt: In a block of `passed_on`, whose owner answers.
+    """
+    if _now.wholes:
+        raise KeyboardInterrupt
+    _now.open = False
+
+
+def asked() -> bool:
+    """Whether the command was interrupted, whoever answered."""
+    return _now.asked
+
+
+def unanswered() -> bool:
+    """Whether the last Ctrl-C has no answer yet: what goes wrong then may come of it, such as an import that broke off."""
+    return _now.open
+
+
+@contextmanager
+def passed_on() -> Iterator[None]:
+    """A block of which Ctrl-C ends all: parts that by themselves would end with what they have raise it on, and nothing follows them."""
+    _now.wholes += 1
+    try:
+        yield
+    finally:
+        _now.wholes -= 1
+
+
+def abandonable(work: Callable[[], T]) -> T:
+    """What one long call into compiled code answers; Ctrl-C cannot stop such a call, but leave it behind in a thread of its own.
+
+    What it works on may not be used any more after Ctrl-C.
+    """
+    answers: list[T] = []
+    errors: list[BaseException] = []
+
+    def call() -> None:
+        try:
+            answers.append(work())
+        except BaseException as error:  # raised where it is waited for
+            errors.append(error)
+
+    thread = threading.Thread(target=call, daemon=True)
+    thread.start()
+    thread.join()
+    if errors:
+        raise errors[0]
+    return answers[0]
+
+
+@contextmanager
+def listening() -> Iterator[None]:
+    """A command: Ctrl-C in it is raised every `AGAIN` seconds until it is answered, or the command has ended.
+
+    Where the process ignores Ctrl-C, as in the background of a shell, it stays so.
+    """
+    _now.asked = _now.open = False
+    here = threading.current_thread() is threading.main_thread()
+    if (
+        not here
+        or signal.getsignal(signal.SIGINT) is not signal.default_int_handler
+        or not hasattr(signal, "setitimer")
+    ):
+        yield
+        return
+    before: dict[int, Any] = {signal.SIGINT: signal.signal(signal.SIGINT, _hear)}
+    before[signal.SIGALRM] = signal.signal(signal.SIGALRM, _hear_again)
+    told, sys.unraisablehook = sys.unraisablehook, _tell_lost
+    try:
+        yield
+    finally:
+        sys.unraisablehook = told
+        _now.open = False
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _hear(number: int, frame: FrameType | None) -> None:
+    _now.asked = _now.open = True
+    _hear_again(number, frame)
+
+
+def _hear_again(number: int, frame: FrameType | None) -> None:
+    if _now.open:
+        signal.setitimer(signal.ITIMER_REAL, AGAIN)
+        raise KeyboardInterrupt
+
+
+def _tell_lost(lost: "sys.UnraisableHookArgs") -> None:
+    """Tell of an exception that nobody could be given, unless it is an interrupt, which comes again."""
+    if not (_now.open and lost.exc_type is not None and issubclass(lost.exc_type, KeyboardInterrupt)):
+        sys.__unraisablehook__(lost)

@@ -1,0 +1,40 @@
+"""Plans rehearsed before they are climbed: the easiest that is carried out each time is taken."""
+
+import math
+
+import pytest
+
+from clamber.families.climber.planning.task import LimbedTask
+from clamber.families.climber.trials.noise import NO_NOISE, read_noise
+from clamber.families.climber.trials.plan_validation import SEEDS, PlanValidation, validations
+from clamber.families.climber.trials.planning import QUIET, plan_to_climb
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_source import open_plan
+
+
+def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
+    opened = open_plan("ladder-hand")
+    task = climbing_task(opened.task)
+    few = Plan.of_codes(task, opened.plan.codes(task)[:3], planner="hand")
+    assert validations(climbing_flaws(task, ()), QUIET)(task, few) == PlanValidation(len(SEEDS), 1.0)
+    lost = validations(climbing_flaws(task, ()), QUIET, read_noise(NO_NOISE, ("peg_error=30mm",)))(task, opened.plan)
+    assert lost.climbed == 0 and lost.share < 1.0
+
+
+def test_rehearsals_are_told_apart_by_climbs_then_by_how_far_they_came() -> None:
+    assert PlanValidation(len(SEEDS), 1.0).flawless and not PlanValidation(len(SEEDS) - 1, 1.0).flawless
+    assert PlanValidation(1, 0.2) > PlanValidation(0, 0.9) > PlanValidation(0, 0.3)
+
+
+@pytest.mark.slow
+def test_every_candidate_may_be_asked_for_and_the_one_that_does_best_is_taken() -> None:
+    asked: list[Plan] = []
+
+    def fails(task: LimbedTask, plan: Plan) -> PlanValidation:
+        asked.append(plan)
+        return PlanValidation(0, 0.5)
+
+    task = climbing_task(open_plan("ladder-hand").task)
+    plan = plan_to_climb(task, "auto", seconds=math.inf, seed=0, threads=1, validate_plan=fails)
+    assert asked and plan is asked[0]

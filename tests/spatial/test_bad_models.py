@@ -1,0 +1,135 @@
+"""Models and worlds that cannot be used: the error names file and element, and what is allowed; nobody sees a traceback."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from clamber.errors import ClamberError
+from clamber.families.spatial.robot.robot import build_robot
+from clamber.families.spatial.robot.starter import import_robot
+from clamber.files import Document
+
+LIMIT = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
+
+
+def link(name: str, mass: str = "1", inertia: str = "0.01") -> str:
+    terms = " ".join(f'{key}="{inertia}"' for key in ("ixx", "iyy", "izz"))
+    return f'<link name="{name}"><inertial><mass value="{mass}"/><inertia {terms} ixy="0" ixz="0" iyz="0"/></inertial></link>'
+
+
+def joint(name: str, parent: str, child: str, kind: str = "revolute", limit: str = LIMIT, axis: str = "0 1 0") -> str:
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="0.1 0 -0.1"/><axis xyz="{axis}"/>{limit}</joint>'
+    )
+
+
+def urdf(*parts: str, links: str | None = None) -> str:
+    return f"<robot name='r'>{links or link('base') + link('upper') + link('lower')}{''.join(parts)}</robot>"
+
+
+HIP, KNEE = joint("hip", "base", "upper"), joint("knee", "upper", "lower")
+BAD = {
+    "syntax": ("<robot name='r'><link name='base'>", ["model.urdf", "line 1"]),
+    "empty": ("", ["model.urdf"]),
+    "no text": ("\x00\x01", ["model.urdf"]),
+    "no robot": ("<html><body/></html>", ["model.urdf"]),
+    "negative mass": (urdf(HIP, KNEE, links=link("base") + link("upper", "-1") + link("lower")), ["model.urdf", "upper", "mass"]),
+    "a mass that is no number": (
+        urdf(HIP, KNEE, links=link("base") + link("upper", "heavy") + link("lower")), ["model.urdf", "mass", "heavy"]),
+    "a mass without end": (urdf(HIP, KNEE, links=link("base") + link("upper", "inf") + link("lower")), ["model.urdf", "upper", "mass"]),
+    "an unknown link": (urdf(HIP, joint("knee", "upper", "shin")), ["model.urdf", "knee", "shin"]),
+    "no axis": (urdf(joint("hip", "base", "upper", axis="0 0 0"), KNEE), ["model.urdf", "hip", "axis"]),
+    "a ring": (urdf(HIP, KNEE, joint("ring", "lower", "base")), ["model.urdf"]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_model_that_cannot_be_read_or_be_is_named_with_file_and_element(name: str, tmp_path: Path) -> None:
+    text, words = BAD[name]
+    (tmp_path / "model.urdf").write_text(text)
+    with pytest.raises(ClamberError) as refused:
+        import_robot(tmp_path / "model.urdf", tmp_path / "robot.toml", "robot")
+    assert [word for word in words if word not in str(refused.value)] == [], str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "<mujoco><worldbody><body name='a'><freejoint/><geom type='sphere' size='-0.1'/></body></worldbody></mujoco>",
+            "size",
+        ),
+        ("<mujoco><worldbody><body name='a'><joint type='bend'/></body></worldbody></mujoco>", "bend|type"),
+        ("<mujoco><worldbody>", "model.xml"),
+    ],
+)
+def test_an_mjcf_file_that_cannot_be_read_is_named_with_mujocos_words(text: str, words: str, tmp_path: Path) -> None:
+    (tmp_path / "model.xml").write_text(text)
+    with pytest.raises(ClamberError, match=words) as refused:
+        import_robot(tmp_path / "model.xml", tmp_path / "robot.toml", "robot")
+    assert "model.xml" in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("joints", "looked_at"),
+    [
+        (
+            (joint("hip", "base", "upper", "fixed"), joint("knee", "upper", "lower", "fixed")),
+            ("base", "upper", "lower"),
+        ),
+        ((HIP, joint("tail", "base", "lower")), ("upper", "lower")),
+    ],
+)
+def test_a_robot_without_a_limb_says_which_links_were_looked_at(
+    joints: tuple[str, ...], looked_at: tuple[str, ...], tmp_path: Path
+) -> None:
+    (tmp_path / "model.urdf").write_text(urdf(*joints))
+    with pytest.raises(ClamberError) as refused:
+        import_robot(tmp_path / "model.urdf", tmp_path / "robot.toml", "robot")
+    assert all(name in str(refused.value) for name in ("model.urdf", *looked_at)), str(refused.value)
+
+
+def test_limits_the_wrong_way_round_are_repaired_and_told(tmp_path: Path) -> None:
+    wrong = joint("hip", "base", "upper", limit='<limit lower="1" upper="-1" effort="5" velocity="1"/>')
+    (tmp_path / "model.urdf").write_text(urdf(wrong, KNEE))
+    found = import_robot(tmp_path / "model.urdf", tmp_path / "robot.toml", "robot")
+    assert any("hip" in line and "lower limit was above the upper one" in line for line in found.repaired)
+
+
+def test_a_robot_file_that_names_what_its_model_has_not_is_told_what_there_is(tmp_path: Path) -> None:
+    (tmp_path / "model.urdf").write_text(urdf(HIP, KNEE))
+    data = {
+        "schema": "clamber-robot-1",
+        "family": "spatial",
+        "name": "r",
+        "title": "R",
+        "model": "model.urdf",
+        "base": "base",
+    }
+    limb = {"name": "leg", "tip": "lower", "contact": "foot"}
+    for changed, words in (
+        ({"base": "bsae"}, "base"),
+        ({"limb": [limb | {"tip": "shin"}]}, "lower"),
+        ({"limb": [limb | {"limits": {"hipp": ["0 deg", "1 deg"]}}]}, "hip"),
+        ({"limb": [limb | {"contact": "claw"}]}, "gripper"),
+        ({"model": "other.urdf"}, "other.urdf"),
+    ):
+        document = Document("robot.toml", {**data, "limb": [limb], **changed}, (), tmp_path)
+        with pytest.raises(ClamberError) as refused:
+            build_robot(document)
+        assert (words in str(refused.value) and "robot.toml" in str(refused.value)) or words == "other.urdf", str(
+            refused.value
+        )
+
+
+def test_the_command_ends_with_one_message(
+    clamber: Callable[..., tuple[int, str, str]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "model.urdf").write_text(urdf(HIP, KNEE, links=link("base") + link("upper", "-1") + link("lower")))
+    for words in (("--from", "model.urdf"), ("--from", "nowhere.urdf"), ("--from", "model.txt")):
+        code, out, err = clamber("new", "robot", *words, "-o", "robot.toml")
+        assert code == 2 and out == "" and err.startswith("clamber: ") and "Traceback" not in err
+        assert not (tmp_path / "robot.toml").exists()
