@@ -34,7 +34,6 @@ class Spatial(Family):
             "inspection": "clamber.families.spatial.inspection:INSPECTION",
             "imports": "clamber.families.spatial.robot.starter:IMPORTS",
             "first_task": "clamber.families.spatial.planning.first_task:first_task",
-            "printed": "clamber.families.spatial.cli.new_world:PRINTED",
         }
     )
 

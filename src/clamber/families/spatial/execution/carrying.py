@@ -135,6 +135,10 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         if self._replan is None or outcome != "missed" or not isinstance(action, Regrab):
             return False
         body, back = self.body, action.before
+        if (
+            np.delete(body.holds, action.limb) < 0
+        ).any():  # another limb came off: no plan begins with fewer limbs on holds
+            return False
         self._missed.add(action.hold)
         normals = body.world.normals[[action.hold, int(back.holds[action.limb])]]
         try:

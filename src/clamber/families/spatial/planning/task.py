@@ -15,7 +15,8 @@ from ....tasks.regions import check_order
 from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
 from ....types import Json
 from ....units import Angle, Length, NonNegativeLength, PositiveAngle, PositiveLength, Quantity
-from ..robot.robot import Payload, RobotSpec, SpatialRobot, build_robot
+from ..robot.handling import Payload
+from ..robot.robot import RobotSpec, SpatialRobot, build_robot
 from ..world.library import read_world
 from ..world.world import World, build_world
 from .checks import SPATIAL_CHECKS

@@ -1,11 +1,21 @@
-"""How a robot in space moves and takes holds, as its file may state it: numbers that scale with its weight, size and agility."""
+"""What a robot in space carries, and how it moves and takes holds, as its file may state it."""
 
 from typing import Annotated
 
 from pydantic import Field
 
 from ....specs import spec
-from ....units import PositiveRatio
+from ....units import Length, NonNegativeMass, PositiveRatio
+
+
+@spec
+class Payload:
+    """What the base carries."""
+
+    mass: NonNegativeMass
+    """[kg]."""
+    at: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
+    """Its centre of mass, base frame [m]."""
 
 
 @spec

@@ -15,12 +15,12 @@ from ....notebook import Pictured
 from ....regular_files import user_path
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
 from ....types import Json
-from ....units import Length, NonNegativeAngle, NonNegativeLength, NonNegativeMass, PositiveAngularSpeed, Quantity
+from ....units import Length, NonNegativeAngle, NonNegativeLength, PositiveAngularSpeed, Quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
 from .contact_kinds import ContactKind, build_contact, stated_contacts
 from .contacts import Contact
-from .handling import Handling
+from .handling import Handling, Payload
 from .model import read_model
 from .readings import LINEAR, Load, Position, Rate, Reading, shown
 from .tree import Frame, Joint, Tree, rooted_at
@@ -59,16 +59,6 @@ class LimbSpec:
     """Joint -> speed of its motor without load, in place of the model's."""
     radius: NonNegativeLength | None = None
     """Of its links' capsules [m]; None: as thick as their shapes."""
-
-
-@spec
-class Payload:
-    """What the base carries."""
-
-    mass: NonNegativeMass
-    """[kg]."""
-    at: tuple[Length, Length, Length] = (0.0, 0.0, 0.0)
-    """Its centre of mass, base frame [m]."""
 
 
 @spec
