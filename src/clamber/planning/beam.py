@@ -1,7 +1,7 @@
 """The beam planner as a whole: a task in, a plan or the furthest stance out."""
 
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 from ..tasks import Task
 from .beam_layers import Reached, search_layers
@@ -56,7 +56,7 @@ def plan_beam(
         if progress is not None:
             progress(Layers(layer, stances, score))
 
-    asked = {"width": width, "longest": longest, "polish": polish}
+    asked: dict[str, Any] = {"width": width, "longest": longest, "polish": polish}
     beam = replace(problem.beam, **{name: value for name, value in asked.items() if value is not None})
     checks = 0
     for _ in range(1 + WIDENINGS):

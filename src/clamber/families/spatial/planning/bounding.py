@@ -28,7 +28,7 @@ def with_bound(params: Params, start: Records, is_late: Callable[[], bool]) -> P
         start: Its start stance.
         is_late: Asked whether there is no more time.
     """
-    row = params.record
+    row: Any = params.record
     reach = 0.5 * float(row["reach"])
     holds: Any = params.array("holds")
     places = holds["place"]
@@ -52,7 +52,8 @@ def with_bound(params: Params, start: Records, is_late: Callable[[], bool]) -> P
     poses, scratch = np.zeros((n, AXES), np.int64), start.copy()
     list_poses(row, low, count, region, poses)
     made = params.extended({"n_poses": n}, region=region, left=left)
-    made.record["region_low"], made.record["region_count"] = low, count
+    record: Any = made.record
+    record["region_low"], record["region_count"] = low, count
     beside, exits, met = np.zeros((n, MOVES), np.int32), np.zeros(n, np.int64), np.zeros(n, np.uint8)
     join_poses(made.record, poses, beside, exits, met, scratch)
     joints: Any = params.array("robot")["n_joints"][0]
