@@ -56,7 +56,8 @@ def with_bound(params: Params, start: Records, is_late: Callable[[], bool]) -> P
     record["region_low"], record["region_count"] = low, count
     beside, exits, met = np.zeros((n, MOVES), np.int32), np.zeros(n, np.int64), np.zeros(n, np.uint8)
     join_poses(made.record, poses, beside, exits, met, scratch)
-    joints: Any = params.array("robot")["n_joints"][0]
+    robot: Any = params.array("robot")
+    joints = robot["n_joints"][0]
     for limb, table in enumerate(left):
         postures = np.zeros((*table.shape, int(joints[limb])), np.float32)
         reach_holds(row, limb, poses, table, postures, scratch)
