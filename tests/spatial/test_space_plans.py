@@ -12,6 +12,7 @@ from clamber.errors import SpecError
 from clamber.families.spatial.planning.checks import SPATIAL_CHECKS
 from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.planning.task import SpatialTask
+from clamber.planning.auto import choose
 from clamber.planning.beam import plan_beam
 from clamber.planning.exact.planner import plan_exact
 from clamber.planning.genetic.planner import plan_genetic
@@ -159,6 +160,11 @@ def test_other_planners_plan_in_space(planner: Any) -> None:
     found = planner(task("wall-gripper", "goal={ along_min = '0.1 m' }"), seed=1, seconds=60.0, threads=1)
     assert found.has_plan, found.reason
     assert found.check().ok
+
+
+def test_a_world_of_many_holds_is_searched_by_a_beam_first() -> None:
+    problem = SpatialProblem(load_task("chimney-hexapod"), 1)
+    assert problem.landmarks > 1000 and choose(problem).planners[0] == "beam"
 
 
 def test_exact_search_names_lattice_and_choice_of_holds() -> None:
