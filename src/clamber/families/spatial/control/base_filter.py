@@ -55,8 +55,8 @@ class FilterSettings:
     hold: float = 4e-3
     """Of the height of a hold, by the map, before it is touched [m]."""
     landmark: float = 5e-3
-    """Of the place of a hold, by the map, that an end effector centres itself on [m]. More than a ball of that radius has, 2.2 mm along
-    each axis, as every touch counts as if the map had been drawn anew: four limbs on a hold, one after another, claim no more than is so."""
+    """Of the place of a hold, by the map, on which an end effector centres itself [m]. More than a ball of that radius has, 2.2 mm along
+    each axis, as every touch counts as if the map had been drawn anew: four limbs on a hold, one after another, claim no more than that."""
     gate: float = 0.02
     """A tip that seems to have moved by more has slipped [m]."""
 

@@ -128,9 +128,11 @@ class EstimatedBase:
         self._on[limb] = hold
 
     def _centred(self, limb: int, hold: int) -> bool:
-        """Whether a limb's end effector, which has just closed, will have drawn its tip to the hold."""
-        off = self.filter.believed.places[limb] - self._map[hold]
-        return float(np.linalg.norm(off)) <= self._bears[limb].centring
+        """Whether a limb's end effector, which has just closed, has drawn its tip to the hold, and to no other by its looks."""
+        if not self._bears[limb].centring:
+            return False
+        away = self.places - self.filter.believed.places[limb]
+        return int(np.argmin(np.einsum("ij,ij->i", away, away))) == hold
 
     def _centres(self, limb: int, hold: int) -> Floats:
         """Axes along which an end effector centres itself on a hold: all, or those across its bar, shape (n, 3)."""

@@ -84,7 +84,7 @@ class Ends:
             [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body] for body in self._bodies
         ]
         self._bits = [int(model.geom_contype[balls[0]]) for balls in self._balls]
-        self._readings = data.sensordata[6:].reshape(n, 6)
+        self._readings = data.sensordata.reshape(n, 6)
         self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
         self.wrenches: Final = np.zeros((n, 6))
         """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
@@ -94,7 +94,10 @@ class Ends:
         self._nearest, self._under, self._gaps = np.zeros(n, np.int64), np.full(n, -2), np.zeros(n)
         self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
         self._shutting = np.zeros(n, np.int64)  # ticks until jaws have shut
-        self._anchors, self._seats = np.zeros((n, 3)), np.zeros((n, 3))  # where they closed, and where they draw the tip to
+        self._anchors, self._seats = (
+            np.zeros((n, 3)),
+            np.zeros((n, 3)),
+        )  # where they closed, and where they draw the tip to
         self._ticks = max(1, round(SHUTTING * flaws.control_rate))
         self.closed: Final = np.zeros(n, np.int32)
         """1 of those that are attached, shape (limbs,)."""
@@ -148,7 +151,12 @@ class Ends:
         for limb, hold in enumerate(self._nearest.tolist()):
             if hold != self._under[limb]:
                 self._put_beneath(limb, hold)
-            if self._wanted[limb] and not self._spent[limb] and self._ends["hold"][limb] < 0 and self._catches(limb, hold):
+            if (
+                self._wanted[limb]
+                and not self._spent[limb]
+                and self._ends["hold"][limb] < 0
+                and self._catches(limb, hold)
+            ):
                 if self._flaws.miss > 0.0 and self._chance.random() < self._flaws.miss:
                     self._spent[limb] = True
                 else:
