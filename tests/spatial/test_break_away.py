@@ -129,3 +129,25 @@ def test_a_foot_does_not_creep_and_slips_at_its_friction(kind: str, tmp_path: Pa
     load(plant, SETTLE, press + 0.99 * most, press + 1.01 * most)
     load(plant, SETTLE, press + 1.01 * most, press + 1.01 * most)
     assert np.linalg.norm(plant.truth().tips[0] - before) / SETTLE >= 1e-4
+
+
+@pytest.mark.parametrize(
+    ("kind", "drawn"), [("gripper", (1.0, 1.0)), ("clamp", (1.0, 1.0)), ("hook", (0.0, 1.0)), ("magnet", (0.0, 0.0))]
+)
+def test_what_encloses_draws_its_tip_to_its_hold(kind: str, drawn: tuple[float, float], tmp_path: Path) -> None:
+    """Jaws come to the hold's own place and tell so once they have shut, hooks across their bars alone, magnets stay where they are."""
+    plant = rig(tmp_path, shipped(kind), radius="5 mm")
+    beside = np.array((0.006, 0.004, 0.0))
+    plant.reset(Pose(np.eye(3), beside), np.zeros(1), [-1])
+    plant.grip(0, True)
+    for _ in range(round(1.0 / plant.period)):
+        angle, speed = plant.sense().joints
+        plant.actuate(-STIFF * angle - DAMPED * speed)
+        plant.step()
+        if plant.sense().closed[0]:
+            break
+    assert plant.truth().attached[0] == 0
+    for _ in range(40):
+        plant.step()
+    assert plant.truth().tips[0, :2] == pytest.approx(beside[:2] * (1.0 - np.array(drawn)), abs=2e-4)
+    assert not plant.truth().broken

@@ -9,6 +9,7 @@ from standing import Standing
 from clamber.control.whole_body.tree import State
 from clamber.families.spatial.control.believed_tree import believed_tree
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
+from clamber.families.spatial.execution.plant import Pose
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.types import Floats
 
@@ -82,3 +83,20 @@ def test_a_touch_corrects_the_map_of_holds() -> None:
     robot.held[0] = -1  # believed to have let go
     robot.sway(0.05)
     assert np.linalg.norm(robot.belief.places[hold] - true) < 2.5e-3
+
+
+@pytest.mark.parametrize(("name", "least", "most"), [("wall-gripper", 0.0, 2.5e-3), ("corners-magnet", 5e-3, 9e-3)])
+def test_touches_of_what_centres_itself_tell_the_place_along_the_surface(name: str, least: float, most: float) -> None:
+    """Jaws draw themselves to their holds, whose places the map has; magnets stay where they land, so 8 mm stay 8 mm."""
+    robot = Swaying(name, SpatialFlaws())
+    normal = robot.task.world.normals[int(robot.held[0])]
+    aside = np.cross(normal, (1.0, 0.2, 0.1))
+    off = 8e-3 * aside / np.linalg.norm(aside)
+    robot.belief.begin(Pose(robot.pose.rotation, robot.pose.position + off), robot.plant.sense())
+    taken = robot.held.copy()
+    for limb in (0, 1, 2, 3) * 3:
+        robot.held[limb] = -1  # believed to have let go, and to have closed again
+        robot.sway(0.02)
+        robot.held[limb] = taken[limb]
+        robot.sway(0.05)
+    assert least <= np.linalg.norm(robot.state.position - robot.plant.truth().pose.position) <= most

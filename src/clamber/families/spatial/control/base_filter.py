@@ -54,6 +54,9 @@ class FilterSettings:
     """Of how it stands at the start [rad]."""
     hold: float = 4e-3
     """Of the height of a hold, by the map, before it is touched [m]."""
+    landmark: float = 5e-3
+    """Of the place of a hold, by the map, on which an end effector centres itself [m]. More than a ball of that radius has, 2.2 mm along
+    each axis, as every touch counts as if the map had been drawn anew: four limbs on a hold, one after another, claim no more than that."""
     gate: float = 0.02
     """A tip that seems to have moved by more has slipped [m]."""
 
@@ -158,6 +161,11 @@ class BaseFilter:
     def take_height(self, limb: int, place: Floats, normal: Floats, variance: float) -> None:
         """Take in that a limb is on the surface of a hold, by the map [m], [m^2]; where on it, it does not feel."""
         take_height(self.believed, limb, place, normal, variance, self._row)
+
+    def take_place(self, limb: int, place: Floats, axes: Floats) -> None:
+        """Take in that a limb is on a hold's own place, by the map [m], along each of some axes, shape (n, 3)."""
+        for axis in axes:
+            take_height(self.believed, limb, place, axis, self._settings.landmark**2, self._row)
 
     def spread(self, limb: int) -> float:
         """Standard deviation of where a limb's contact is, in any direction [m]."""

@@ -21,6 +21,7 @@ FIRM: Final = 0.03
 """A motor that gives this part of its torque pushes its joint's play to one side [-]."""
 LAG: Final = 0.03
 """In which it does [s]."""
+IDENTITY: Final = np.eye(3)
 SPEED_BAND: Final = 120.0
 """Of the tracking filter that makes speeds of the angles of coarse encoders [rad/s]."""
 
@@ -57,7 +58,8 @@ class EstimatedBase:
         self.filter: Final = BaseFilter(limbs, directed, np.array(world.gravity), settings)
         self.places: Final = world.places
         """Where holds are, as believed, corrected by touch [m], shape (holds, 3)."""
-        self._normals = world.normals
+        self._map, self._normals = world.places, world.normals
+        self._bears = [end.bears() for end in robot.ends]
         self._spreads = np.full(len(world.holds), settings.hold)
         self._on: Ints = np.full(limbs, -1, np.int32)
         self._own, self._work = State.of(tree), Dynamics.of(tree)
@@ -119,8 +121,26 @@ class EstimatedBase:
         if hold >= 0:
             work = self._work
             self.filter.hold_on(limb, work.tip[limb], work.tip_turn[limb], float(self._variances[limb]))
-            self.filter.take_height(limb, self.places[hold], self._normals[hold], float(self._spreads[hold]) ** 2)
+            if self._centred(limb, hold):
+                self.filter.take_place(limb, self._map[hold], self._centres(limb, hold))
+            else:
+                self.filter.take_height(limb, self.places[hold], self._normals[hold], float(self._spreads[hold]) ** 2)
         self._on[limb] = hold
+
+    def _centred(self, limb: int, hold: int) -> bool:
+        """Whether a limb's end effector, which has just closed, has drawn its tip to the hold, and to no other by its looks."""
+        if not self._bears[limb].centring:
+            return False
+        away = self.places - self.filter.believed.places[limb]
+        return int(np.argmin(np.einsum("ij,ij->i", away, away))) == hold
+
+    def _centres(self, limb: int, hold: int) -> Floats:
+        """Axes along which an end effector centres itself on a hold: all, or those across its bar, shape (n, 3)."""
+        if not self._bears[limb].bar:
+            return IDENTITY
+        normal, along = self._normals[hold], self.filter.believed.directions[limb, :, 0]
+        across: Floats = np.cross(normal, along)
+        return np.stack((normal, across / np.linalg.norm(across)))
 
     def _tell(self, sensed: SpatialSensed, state: State) -> None:
         """The belief as of now."""

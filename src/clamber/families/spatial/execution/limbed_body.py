@@ -80,6 +80,7 @@ class LimbedBody:
         """Called after each tick."""
         self._pressed, self._normal, self._push = -1, np.zeros(3), 0.0
         self._bears = [end.bears() for end in robot.ends]
+        self._pushing = np.array([not self.attaches(limb) for limb in range(limbs)])
 
     @property
     def time(self) -> float:
@@ -210,5 +211,6 @@ class LimbedBody:
         aims.velocity[:] = aims.acceleration[:] = 0.0
 
     def _believe(self) -> None:
-        self.belief.update(self.sensed, np.where(self.law.aims.does == HOLDS, self.holds, -1), self.law.state)
+        held = (self.law.aims.does == HOLDS) & (self._pushing | (self.sensed.closed != 0))  # what is open stays nowhere
+        self.belief.update(self.sensed, np.where(held, self.holds, -1), self.law.state)
         self.law.look()

@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
+from ..robot.contacts import SHUTTING
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
 from .references import PEAK_SPEED, BodyPath, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
@@ -177,7 +178,7 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
     if body.attaches(limb):
         body.plant.grip(limb, True)
     body.press(limb, path.normals[1])
-    deep, closing, met = 0.0, round(pace.shift / body.plant.period), False
+    deep, closing, met = 0.0, round((pace.shift + SHUTTING) / body.plant.period), False
     eager = 0.0
     while deep < pace.depth and closing > 0:
         if touches(body, limb):

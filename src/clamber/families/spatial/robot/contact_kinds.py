@@ -26,6 +26,9 @@ SCHEMA: Final = "clamber-contact-1"
 DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
 CAPTURE: Final = 0.01
 """How far beside a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
+CENTRING: Final = 0.03
+"""From how far jaws and hooks draw themselves to a hold's place whose files do not say it, chosen: as far as they reach around what they
+enclose, a capture of 20 mm beside a patch of 10 mm [m]."""
 Title = Annotated[str, Field(max_length=200)]
 
 
@@ -94,6 +97,8 @@ class Gripper:
     """Pull-off force along the normal [N]."""
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
+    centring: NonNegativeLength = CENTRING
+    """As it shuts, it draws its tip to the hold's place from no further than this [m]; 0: it stays where it attaches."""
 
     def contact(self) -> Contact:
         """What it can take: a friction cone whose apex lies at the pull-off force."""
@@ -101,7 +106,9 @@ class Gripper:
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(form="cone", friction=self.friction, pull=self.pull, capture=self.capture)
+        return Strength(
+            form="cone", friction=self.friction, pull=self.pull, capture=self.capture, centring=self.centring
+        )
 
 
 @spec
@@ -125,6 +132,8 @@ class Clamp:
     """Largest angle off the normal at which it closes [rad]."""
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
+    centring: NonNegativeLength = CENTRING
+    """As it shuts, it draws its tip to the hold's place from no further than this [m]; 0: it stays where it attaches."""
 
     def contact(self) -> Contact:
         """What it can take: forces and moments apart from each other."""
@@ -150,6 +159,7 @@ class Clamp:
             twisting=self.twisting,
             moments=True,
             capture=self.capture,
+            centring=self.centring,
             tilt=self.tilt,
         )
 
@@ -171,6 +181,8 @@ class Hook:
     """Largest angle of the end effector's z from the inward normal at which it hangs safely [rad]."""
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
+    centring: NonNegativeLength = CENTRING
+    """As it shuts, it draws its tip to the hold's place from no further than this, across its bar [m]; 0: it stays where it attaches."""
 
     def contact(self) -> Contact:
         """What it can take."""
@@ -187,6 +199,8 @@ class Hook:
             pull=self.strength,
             angle=self.opening,
             capture=self.capture,
+            centring=self.centring,
+            bar=True,
             tilt=self.tilt,
         )
 

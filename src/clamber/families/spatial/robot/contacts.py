@@ -17,6 +17,8 @@ FACETS = 8
 """Sides of the pyramid that stands for a friction cone; it lies inside: 90 % of the cone's section."""
 MOST_ROWS = 32
 """Rows of a contact at most."""
+SHUTTING = 0.4
+"""Jaws that centre themselves take that long to shut, chosen: quicker ones tear at the other limbs through the inertia of the gears [s]."""
 SLIP, GRIP, MOMENT = range(3)
 """Margins that a row counts for."""
 
@@ -95,6 +97,10 @@ class Strength:
     """Whether it holds its direction, too."""
     capture: float = 0.0
     """It attaches beside a hold's patch by no more than this [m]; 0: it only pushes."""
+    centring: float = 0.0
+    """As it shuts, it draws itself to the hold's own place from no further than this [m]; 0: it stays where it attaches."""
+    bar: bool = False
+    """Whether it centres across the bar alone that it hangs on, and stays where it is along that."""
     tilt: float = math.inf
     """Largest angle of its z from the inward normal at which it attaches [rad]."""
     tilt_loss: float = 0.0

@@ -6,8 +6,10 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....control.quintic import quintic_share
 from ....execution.plant import HoldBreak
 from ....types import Floats, Ints
+from ..robot.contacts import SHUTTING
 from ..robot.robot import SpatialRobot
 from ..world.solids import frame_about
 from ..world.world import World
@@ -21,6 +23,8 @@ CLOSE: Final = 0.1
 """An end effector attaches from this part of its capture distance out of the surface, or into it [-]."""
 TOUCH: Final = 0.0002
 """Forces below this part of the strength of a hook or of spines, which nothing pulls on, neither slip nor leave [-]."""
+SEATED: Final = 1e-5
+"""A tip that is so near where it belongs is not drawn there [m]."""
 FAR: Final = 1e3
 """Where patches are of limbs near no hold [m]."""
 
@@ -29,7 +33,8 @@ class Ends:
     """End effectors and the holds beneath them.
 
     An end effector that is told to attach does so as soon as it is on the patch of a hold, or beside it within its capture distance, and
-    points into that hold within its tilt. It is then held where it is, with its direction if it bears moments. It comes off when the
+    points into that hold within its tilt. One that centres itself then draws its tip to the hold's place, and is attached, as its switch
+    says, once it has shut; others are held where they are. Directions are held as they are if it bears moments. It comes off when the
     wrench on it has been outside its exact body (`contacts.Strength`) for `GIVING_WAY`; a hold that was weaker than the end effector is
     then gone for good.
 
@@ -79,7 +84,7 @@ class Ends:
             [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body] for body in self._bodies
         ]
         self._bits = [int(model.geom_contype[balls[0]]) for balls in self._balls]
-        self._readings = data.sensordata[6:].reshape(n, 6)
+        self._readings = data.sensordata.reshape(n, 6)
         self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
         self.wrenches: Final = np.zeros((n, 6))
         """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
@@ -88,6 +93,12 @@ class Ends:
         self._given = np.zeros(n, np.int64)
         self._nearest, self._under, self._gaps = np.zeros(n, np.int64), np.full(n, -2), np.zeros(n)
         self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
+        self._shutting = np.zeros(n, np.int64)  # ticks until jaws have shut
+        self._anchors, self._seats = (
+            np.zeros((n, 3)),
+            np.zeros((n, 3)),
+        )  # where they closed, and where they draw the tip to
+        self._ticks = max(1, round(SHUTTING * flaws.control_rate))
         self.closed: Final = np.zeros(n, np.int32)
         """1 of those that are attached, shape (limbs,)."""
         self.broken: tuple[HoldBreak, ...] = ()
@@ -115,6 +126,7 @@ class Ends:
             if hold >= 0 and self._capture[limb] > 0.0:
                 self._wanted[limb] = True
                 self._attach(limb, int(hold))
+                self._shutting[limb], self.closed[limb] = 0, 1  # shut long since
         self.look()
 
     def places(self, held: Sequence[int] | Ints) -> Floats:
@@ -139,16 +151,24 @@ class Ends:
         for limb, hold in enumerate(self._nearest.tolist()):
             if hold != self._under[limb]:
                 self._put_beneath(limb, hold)
-            if self._wanted[limb] and not self._spent[limb] and not self.closed[limb] and self._catches(limb, hold):
+            if (
+                self._wanted[limb]
+                and not self._spent[limb]
+                and self._ends["hold"][limb] < 0
+                and self._catches(limb, hold)
+            ):
                 if self._flaws.miss > 0.0 and self._chance.random() < self._flaws.miss:
                     self._spent[limb] = True
                 else:
                     self._attach(limb, hold)
+        for limb in np.flatnonzero(self._shutting).tolist():
+            self._shut(limb)
 
     def feel(self, time: float) -> None:
         """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
         axes = self._site_axes[self._sites]
         feel_ends(self._ends, axes, self._readings, self.wrenches, self.local, self._given)
+        self._ends["over"][self._shutting > 0] = 0  # what the jaws themselves draw with
         if self._ends["over"].any():
             for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
                 self._come_off(limb, time)
@@ -189,10 +209,13 @@ class Ends:
         data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]
         strength, end = self._strengths[limb], self._ends[limb]
         if strength.moments:  # a weld: anchor in the world, in the body, turn from it to the world
-            eq[:3], eq[3:6] = data.xpos[body], 0.0
+            eq[3:6] = 0.0
             eq[6:10] = data.xquat[body] * (1.0, -1.0, -1.0, -1.0)
         else:
-            eq[:3], eq[3:6] = 0.0, data.xpos[body]
+            eq[:3] = 0.0
+        self._anchors[limb] = data.xpos[body]
+        self._seats[limb] = self._seat(limb, hold)
+        self._hold_at(limb, self._anchors[limb])
         data.eq_active[self._held[limb]] = 1
         own = strength.pull * max(0.0, 1.0 - strength.tilt_loss * self._tilt(limb, hold))
         end["hold"], end["over"], end["normal"] = hold, 0, self._normals[hold]
@@ -200,14 +223,40 @@ class Ends:
         end["mu"] = self._friction(limb, hold)
         end["held"] = self._grip_factor[hold] * min(own, self._hold_pull[hold])
         self._touchable(limb, False)
-        self.closed[limb] = 1
+        drawn = float(np.linalg.norm(self._seats[limb] - self._anchors[limb])) > SEATED
+        self._shutting[limb] = self._ticks if drawn else 0
+        self.closed[limb] = not drawn
+
+    def _hold_at(self, limb: int, place: Floats) -> None:
+        """Have the tip of a limb that is attached at a place [m]."""
+        first = 0 if self._strengths[limb].moments else 3
+        self._model.eq_data[self._held[limb], first : first + 3] = place
+
+    def _seat(self, limb: int, hold: int) -> Floats:
+        """Where an end effector that closes about a hold comes to lie [m], shape (3,)."""
+        strength, at = self._strengths[limb], self._anchors[limb]
+        off = self._places[hold] - at
+        if strength.bar:
+            normal = self._normals[hold]
+            along = self._site_axes[self._sites[limb]].reshape(3, 3)[:, 0]
+            along = along - (along @ normal) * normal
+            off = off - (off @ along) / max(float(along @ along), 1e-12) * along
+        seat: Floats = at + off if float(np.linalg.norm(off)) <= strength.centring else at.copy()
+        return seat
+
+    def _shut(self, limb: int) -> None:
+        """Jaws shut a little further, from rest to rest."""
+        self._shutting[limb] -= 1
+        share = quintic_share(1.0 - self._shutting[limb] / self._ticks)
+        self._hold_at(limb, self._anchors[limb] + share * (self._seats[limb] - self._anchors[limb]))
+        self.closed[limb] = not self._shutting[limb]
 
     def _let_go(self, limb: int) -> None:
         if self._held[limb] >= 0:
             self._data.eq_active[self._held[limb]] = 0
         self._ends["hold"][limb], self._ends["over"][limb] = -1, 0
         self._touchable(limb, True)
-        self.closed[limb] = 0
+        self.closed[limb] = self._shutting[limb] = 0
 
     def _come_off(self, limb: int, time: float) -> None:
         hold = int(self._ends["hold"][limb])

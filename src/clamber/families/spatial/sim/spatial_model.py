@@ -109,9 +109,6 @@ def _add_robot(
     base.add_freejoint(name="floating")
     _fill(base, parts.base, float(deviations.masses[0]), deviations.payload)
     _add_shapes(mujoco, spec, base, parts.base, "base", None)
-    base.add_site(name="imu")
-    for kind in (mujoco.mjtSensor.mjSENS_GYRO, mujoco.mjtSensor.mjSENS_ACCELEROMETER):
-        spec.add_sensor(type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname="imu")
     number = 0
     for limb, (name, links) in enumerate(zip(chains.limb_names, parts.links, strict=True)):
         parent = base

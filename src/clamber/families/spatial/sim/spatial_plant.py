@@ -82,7 +82,7 @@ class SpatialSim:
         self.sensed: Final = SpatialSensed.of(chains)
         """What the sensors said last."""
         self.ends: Final = Ends(robot, world, true.deviations, flaws, model, data)
-        self._imu = Imu(flaws, data.sensordata[:6])
+        self._imu = Imu(flaws, data, np.array(world.gravity, np.float64))
         spread = flaws.force_noise * robot.chains.total_mass * GRAVITY
         reach = float(model.stat.extent) / 2.0
         sensor = ForceSensor(noise=spread, moment_noise=0.1 * reach * spread, seed=flaws.seed or 0)
