@@ -42,7 +42,11 @@ def names(kind: str) -> set[str]:
 
 @pytest.mark.parametrize(
     ("typed", "offered"),
-    [("clamber pl", {"plan", "plant"}), ("clamber new ", {"robot", "board", "task"}), ("clamber doc", {"doctor"})],
+    [
+        ("clamber pl", {"plan", "plant"}),
+        ("clamber new ", {"robot", "board", "task", "world"}),
+        ("clamber doc", {"doctor"}),
+    ],
 )
 def test_words_of_commands_are_completed(typed: str, offered: set[str]) -> None:
     assert set(complete(typed).stdout.split()) == offered

@@ -183,7 +183,8 @@ def test_a_wrong_address_is_told_at_once(address: str, message: str) -> None:
 
 def test_ray_that_is_not_installed_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "ray", None)
-    with pytest.raises(ClusterError, match=r"Ray is not installed here; install it with: pip install 'clamber\[ray\]'"):
+    told = r'Ray is not installed here; install it with: pip install "\.\[ray\]" in a clone of Clamber'
+    with pytest.raises(ClusterError, match=told):
         map_items(square, [{"n": 1}], executor=RayCluster("127.0.0.1:6379"))
 
 

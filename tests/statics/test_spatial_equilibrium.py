@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact, read_contact
+from clamber.families.spatial.robot.contact_files import read_contact
+from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact
 from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK
 from clamber.families.spatial.statics.judging import Statics, rules_record

@@ -8,7 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contact_kinds import build_contact, read_contact
+from clamber.families.spatial.robot.contact_files import read_contact
+from clamber.families.spatial.robot.contact_kinds import build_contact
 from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK, STANCE_CHECKS
 from clamber.families.spatial.statics.collision_kernels import box_gap, segment_gap

@@ -23,12 +23,14 @@ from ..tasks.robots import family_in, read_robot, robot_names
 from ..types import Json
 from .finding import FileKind, Finding, Kind, Margin
 
+LENIENT: Final = ("rules.hard=[]",)
+"""With hard checks, a start that violates one is an error."""
+
 
 def start_margins(task: Task) -> tuple[Margin, ...]:
     """Every check of the start stance, those that it violates too, in the order of the family's checks."""
     family = plan_family(task)
-    lenient = change_task(task, ["rules.hard=[]"])  # with hard checks, a start that violates one is an error
-    replay = family.problem(lenient).replay(np.array([pack(0)], np.int32), go_on=True)
+    replay = family.problem(change_task(task, LENIENT)).replay(np.array([pack(0)], np.int32), go_on=True)
     hard = family.hard(task)
     return tuple(
         Margin(
@@ -46,7 +48,7 @@ def inspect_task(task: Task) -> Finding:
     """Facts of a task, whether its start holds and by how much, and what is odd about it."""
     margins = start_margins(task)
     family, units = plan_family(task), units_of(task.document)
-    problem = family.problem(task)
+    problem = family.problem(change_task(task, LENIENT))
     start = describe_body_pose(family.pose_axes, family.pose(task, problem.start[0]), units)
     facts = {
         "robot": task.robot.name,

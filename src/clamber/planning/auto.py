@@ -43,7 +43,8 @@ def choose(problem: CompiledProblem) -> Choice:
     if problem.incomplete is not None:
         return Choice(("genetic",), "only genetic search takes rules.allowed with single grabs or releases")
     stances = problem.estimated_stances
-    if problem.landmarks >= MANY and not problem.foreseen:  # a beam that scores before it judges costs as much on any board
+    # Where actions are scored before they are judged, a beam costs as much on any board.
+    if problem.landmarks >= MANY and not problem.foreseen:
         return Choice(("route", "beam", "genetic"), f"{problem.landmarks} holds are too many for one search")
     if math.isinf(stances):
         return Choice(("beam", "genetic"), "the space of stances is open (hangs, or poses of two bodies)")

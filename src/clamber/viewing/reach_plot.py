@@ -188,8 +188,9 @@ def _marks(axes: Axes, reach: Reach) -> list[Artist]:
     if chart is not None and reach.holds:
         handles += _limbs_at(axes, reach, chart.points(task))
     if reach.never_used:
+        never = [hold.number in reach.never_used for hold in task.world.holds]
         places = [(hold.x, hold.y) for hold in task.world.holds] if chart is None else chart.points(task)
-        spots = np.array(places)[np.array(reach.never_used) - 1]
+        spots = np.array(places)[never]
         crosses = axes.scatter(
             spots[:, 0], spots[:, 1], marker="x", s=34, lw=1.7, color=style.ALERT, zorder=6, label="hold never used",
             path_effects=[halo(1.0)],

@@ -93,7 +93,7 @@ def test_a_steadied_result_can_be_carried_out_and_says_what_was_done(found: tupl
         result = steadied_result(polished, step)
         assert lay_course(task, result.plan).objections == ()
         moved = result.plan.actions != plan.actions
-        assert result.planner == f"{plan.planner}{', with_stretch_repaired' * moved}" == result.plan.planner
+        assert result.planner == f"{plan.planner}{', steadied' * moved}" == result.plan.planner
         assert ("made elsewhere" if moved else "where it is steadiest") in result.reason
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field, StrictStr
 
 from ...errors import FileError, SpecError
+from ...family import named_family
 from ...files import Document, check_schema, parse_json, read_text, write_atomically
 from ...notebook import Pictured
 from ...specs import build_spec, spec
@@ -144,7 +145,18 @@ class Plan(Pictured):
             raise FileError(label, "holds no table", f'a plan is a JSON object with schema = "{SCHEMA}"')
         document = Document(label, data)
         check_schema(document, SCHEMA)
-        return build_spec(cls, document, without=("schema",))
+        plan = build_spec(cls, document, without=("schema",))
+        robot = plan.document.get("robot")
+        family = named_family(robot.get("family")) if isinstance(robot, dict) else None
+        if family is not None:  # else the document is the problem, which whoever rebuilds the task is told
+            axes = family.plans.pose_axes
+            for index, action in enumerate(plan.actions):
+                if action.delta is not None and len(action.delta) != len(axes):
+                    names = ", ".join(axis.name for axis in axes)
+                    raise SpecError(
+                        label, f"actions.{index}.delta", list(action.delta), f"must be {len(axes)} numbers: {names}"
+                    )
+        return plan
 
     def save(self, path: str | Path) -> None:
         """Write it as JSON; a crash never leaves half a file.

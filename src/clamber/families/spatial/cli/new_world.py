@@ -139,7 +139,7 @@ def world(
     if words.as_json:
         print_json(made)
         return
-    robot = words.robot or "NAME|FILE"
+    robot = words.robot or "ROBOT"
     told = f"{built.title}: {made.holds} holds"
     print_new(
         made.written, told, f"clamber show {words.output}; clamber new task --robot {robot} --world {words.output}"

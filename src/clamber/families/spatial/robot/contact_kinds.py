@@ -1,15 +1,13 @@
 """Kinds of contacts as files state them, with the numbers of a data sheet, and the contact that statics makes of each."""
 
 import math
-from pathlib import Path
 from typing import Annotated, Any, Final, Literal, TypeAlias
 
 from pydantic import Field
 
-from ....errors import UnknownNameError, describe_choices
-from ....files import Document, check_schema, data_names, find_data, read_toml
+from ....errors import describe_choices
+from ....files import Document, check_schema
 from ....specs import Name, build_spec, spec
-from ....types import Json
 from ....units import (
     ConeAngle,
     NonNegativeLength,
@@ -23,7 +21,6 @@ from ....units import (
 from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, pad, spine_rows
 
 SCHEMA: Final = "clamber-contact-1"
-DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
 CAPTURE: Final = 0.01
 """How far beside a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
 CENTRING: Final = 0.03
@@ -333,41 +330,6 @@ KINDS: Final[dict[str, type[Any]]] = {
     "spine": Spine,
 }
 """Each by the word that files call it."""
-
-
-def contact_names() -> tuple[str, ...]:
-    """Names of the contacts that come with Clamber."""
-    return data_names(DATA)
-
-
-def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
-    """The document of a contact, by its shipped name or from the user's file (a path, relative to `folder`).
-
-    Raises:
-        UnknownNameError: If no contact has that name.
-        FileError: If the file cannot be read.
-    """
-    path, label = find_data("contact", name_or_path, (DATA,), folder)
-    return read_toml(path, label)
-
-
-def stated_contacts(document: Document) -> Json:
-    """Documents of the contacts that a robot's limbs name, by these names.
-
-    Raises:
-        SpecError: If there is no such contact.
-        FileError: If a file can't be read.
-    """
-    limbs = document.data.get("limb")
-    found: Json = {}
-    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
-        named = limb.get("contact") if isinstance(limb, dict) else None
-        if isinstance(named, str) and named not in found:
-            try:
-                found[named] = read_contact(named, document.folder).data
-            except UnknownNameError as error:
-                raise document.problem(f"limb.{k}.contact", str(error)) from None
-    return found
 
 
 def build_contact(document: Document) -> ContactKind:

@@ -18,7 +18,8 @@ from ....types import Json
 from ....units import Length, NonNegativeAngle, NonNegativeLength, PositiveAngularSpeed, Quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_kinds import ContactKind, build_contact, stated_contacts
+from .contact_files import stated_contacts
+from .contact_kinds import ContactKind, build_contact
 from .contacts import Contact
 from .handling import Handling, Payload
 from .model import read_model

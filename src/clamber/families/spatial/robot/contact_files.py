@@ -1,0 +1,45 @@
+"""Files of contacts: those that come with Clamber, and those that a robot's limbs name."""
+
+from pathlib import Path
+from typing import Final
+
+from ....errors import UnknownNameError
+from ....files import Document, data_names, find_data, read_toml
+from ....types import Json
+
+DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
+
+
+def contact_names() -> tuple[str, ...]:
+    """Names of the contacts that come with Clamber."""
+    return data_names(DATA)
+
+
+def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a contact, by its shipped name or from the user's file (a path, relative to `folder`).
+
+    Raises:
+        UnknownNameError: If no contact has that name.
+        FileError: If the file cannot be read.
+    """
+    path, label = find_data("contact", name_or_path, (DATA,), folder)
+    return read_toml(path, label)
+
+
+def stated_contacts(document: Document) -> Json:
+    """Documents of the contacts that a robot's limbs name, by these names.
+
+    Raises:
+        SpecError: If there is no such contact.
+        FileError: If a file can't be read.
+    """
+    limbs = document.data.get("limb")
+    found: Json = {}
+    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
+        named = limb.get("contact") if isinstance(limb, dict) else None
+        if isinstance(named, str) and named not in found:
+            try:
+                found[named] = read_contact(named, document.folder).data
+            except UnknownNameError as error:
+                raise document.problem(f"limb.{k}.contact", str(error)) from None
+    return found
