@@ -1,9 +1,12 @@
 """The simulated plant of robots in space: forces balance the weight, end effectors attach where they can, tips stay where they are."""
 
+import math
+
 import numpy as np
 import pytest
 from standing import Standing
 
+from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.families.spatial.statics.kinematics_kernels import limb_frames
 from clamber.families.spatial.statics.records import WORK, robot_record
 
@@ -57,3 +60,17 @@ def test_an_end_effector_attaches_only_near_a_hold_and_when_it_is_told_to() -> N
     stand.joints[1] -= 0.3  # back: it is still told to attach
     stand.stay(0.5)
     assert plant.truth().attached[0] == stand.held[0]
+
+
+def test_what_an_imu_tells_adds_up_to_how_the_base_moves() -> None:
+    """Knocks that last less than a control period are told as what they do in that."""
+    stand = Standing("wall-gripper", SpatialFlaws(backlash=math.radians(0.5), seed=1))
+    plant, gravity = stand.plant, np.array(stand.task.world.gravity)
+    before = plant.truth()
+    moved = np.zeros(3)
+    for tick in range(200):
+        plant.push(np.array((20.0 * math.sin(tick), 10.0, 0.0, 0.0, 0.0, 0.0)))
+        stand.stay(plant.period)
+        moved += plant.period * (plant.truth().pose.rotation @ plant.sense().accelerometer + gravity)
+    gained = plant.truth().velocity[:3] - before.velocity[:3]
+    assert moved == pytest.approx(gained, abs=2e-3)

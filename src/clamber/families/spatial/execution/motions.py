@@ -13,7 +13,6 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..robot.contacts import SHUTTING
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
 from .references import PEAK_SPEED, BodyPath, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
@@ -178,11 +177,18 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
     if body.attaches(limb):
         body.plant.grip(limb, True)
     body.press(limb, path.normals[1])
-    deep, closing, met = 0.0, round((pace.shift + SHUTTING) / body.plant.period), False
+    deep, closing, met = 0.0, round(pace.shift / body.plant.period), False
     eager = 0.0
     while deep < pace.depth and closing > 0:
         if touches(body, limb):
             return True
+        if body.sensed.shutting[limb]:  # jaws that draw the tip to its hold have their way
+            body.press(-1, inward)
+            law = body.law
+            drawn = law.dynamics.jacobian[limb, :3] @ law.state.speed
+            body.swing(limb, (body.tips[limb].copy(), drawn, np.zeros(3)), pointed)
+            body.tick()
+            continue
         met = met or presses(body, limb)
         if met:  # on something: pressed on by a force alone, it has a while to close about it
             closing -= 1

@@ -41,6 +41,8 @@ class SpatialSensed:
     """What the motors say that they give, by their currents [N m] or [N], shape (n,)."""
     closed: Ints
     """What each end effector's own switch says: 1 attached, 0 not; of feet always 0. Shape (limbs,)."""
+    shutting: Ints
+    """1 of jaws that are about something and not shut yet, shape (limbs,)."""
     number: Ints
     """Of the reading: one more for each period since the reset; -1: nobody tells. Shape (1,)."""
 
@@ -55,6 +57,7 @@ class SpatialSensed:
             wrenches=np.zeros((limbs, 6)),
             torques=np.zeros(n),
             closed=np.zeros(limbs, np.int32),
+            shutting=np.zeros(limbs, np.int32),
             number=np.full(1, -1, np.int32),
         )
 

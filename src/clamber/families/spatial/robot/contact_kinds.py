@@ -18,7 +18,7 @@ from ....units import (
     PositiveRatio,
     PositiveTorque,
 )
-from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, pad, spine_rows
+from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, padded, spine_rows
 
 SCHEMA: Final = "clamber-contact-1"
 CAPTURE: Final = 0.01
@@ -68,7 +68,7 @@ class AreaFoot:
 
     def contact(self) -> Contact:
         """What it can take."""
-        return _padded(self.kind, self.friction, 0.0, (self.length / 2, self.width / 2), self.ankle, self.tilt)
+        return padded(self.kind, self.friction, 0.0, (self.length / 2, self.width / 2), self.ankle, self.tilt)
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -231,7 +231,7 @@ class Magnet:
     def contact(self) -> Contact:
         """What it can take."""
         side = self.radius * math.sqrt(0.5)
-        return _padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt, self._loss)
+        return padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt, self._loss)
 
     @property
     def _pull(self) -> float:
@@ -271,7 +271,7 @@ class Suction:
     def contact(self) -> Contact:
         """What it can take."""
         side = self.diameter / 2 * math.sqrt(0.5)
-        return _padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt)
+        return padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt)
 
     @property
     def _pull(self) -> float:
@@ -344,22 +344,6 @@ def build_contact(document: Document) -> ContactKind:
         raise document.problem("kind", f"must be {describe_choices(str(kind), tuple(KINDS))}")
     built: ContactKind = build_spec(KINDS[str(kind)], document, without=("schema",))
     return built
-
-
-def _padded(
-    kind: str, friction: float, pull: float, halves: tuple[float, float], ankle: bool, tilt: float, loss: float = 0.0
-) -> Contact:
-    """A pad's contact: within an ankle it bears no moments, without one it has to lie flat."""
-    return Contact(
-        kind=kind,
-        rows=cone() if ankle else pad(*halves),
-        friction=friction,
-        pull=pull,
-        components=3 if ankle else 6,
-        aligned=not ankle,
-        tilt=tilt,
-        tilt_loss=loss,
-    )
 
 
 def _strength(kind: Magnet | Suction, pull: float, side: float, loss: float = 0.0) -> Strength:

@@ -182,6 +182,22 @@ def pad(half1: float, half2: float) -> tuple[Row, ...]:
     return (*slides, *tips, *twists, Row(coefficients=line(n=-1.0), limit=(0.0, 1.0, 0.0), margin=GRIP))
 
 
+def padded(
+    kind: str, friction: float, pull: float, halves: tuple[float, float], ankle: bool, tilt: float, loss: float = 0.0
+) -> Contact:
+    """A pad's contact: within an ankle it bears no moments, without one it has to lie flat."""
+    return Contact(
+        kind=kind,
+        rows=cone() if ankle else pad(*halves),
+        friction=friction,
+        pull=pull,
+        components=3 if ankle else 6,
+        aligned=not ankle,
+        tilt=tilt,
+        tilt_loss=loss,
+    )
+
+
 def hook_rows(opening: float, friction: float, facets: int = 2 * FACETS) -> tuple[Row, ...]:
     """Rows of a hook over a bar (first tangent along the bar, normal out of what it hangs on).
 

@@ -93,7 +93,8 @@ class Ends:
         self._given = np.zeros(n, np.int64)
         self._nearest, self._under, self._gaps = np.zeros(n, np.int64), np.full(n, -2), np.zeros(n)
         self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
-        self._shutting = np.zeros(n, np.int64)  # ticks until jaws have shut
+        self.shutting: Final = np.zeros(n, np.int64)
+        """Ticks until jaws have shut, shape (limbs,)."""
         self._anchors, self._seats = (
             np.zeros((n, 3)),
             np.zeros((n, 3)),
@@ -126,7 +127,7 @@ class Ends:
             if hold >= 0 and self._capture[limb] > 0.0:
                 self._wanted[limb] = True
                 self._attach(limb, int(hold))
-                self._shutting[limb], self.closed[limb] = 0, 1  # shut long since
+                self.shutting[limb], self.closed[limb] = 0, 1  # shut long since
         self.look()
 
     def places(self, held: Sequence[int] | Ints) -> Floats:
@@ -161,14 +162,14 @@ class Ends:
                     self._spent[limb] = True
                 else:
                     self._attach(limb, hold)
-        for limb in np.flatnonzero(self._shutting).tolist():
+        for limb in np.flatnonzero(self.shutting).tolist():
             self._shut(limb)
 
     def feel(self, time: float) -> None:
         """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
         axes = self._site_axes[self._sites]
         feel_ends(self._ends, axes, self._readings, self.wrenches, self.local, self._given)
-        self._ends["over"][self._shutting > 0] = 0  # what the jaws themselves draw with
+        self._ends["over"][self.shutting > 0] = 0  # what the jaws themselves draw with
         if self._ends["over"].any():
             for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
                 self._come_off(limb, time)
@@ -224,7 +225,7 @@ class Ends:
         end["held"] = self._grip_factor[hold] * min(own, self._hold_pull[hold])
         self._touchable(limb, False)
         drawn = float(np.linalg.norm(self._seats[limb] - self._anchors[limb])) > SEATED
-        self._shutting[limb] = self._ticks if drawn else 0
+        self.shutting[limb] = self._ticks if drawn else 0
         self.closed[limb] = not drawn
 
     def _hold_at(self, limb: int, place: Floats) -> None:
@@ -246,17 +247,17 @@ class Ends:
 
     def _shut(self, limb: int) -> None:
         """Jaws shut a little further, from rest to rest."""
-        self._shutting[limb] -= 1
-        share = quintic_share(1.0 - self._shutting[limb] / self._ticks)
+        self.shutting[limb] -= 1
+        share = quintic_share(1.0 - self.shutting[limb] / self._ticks)
         self._hold_at(limb, self._anchors[limb] + share * (self._seats[limb] - self._anchors[limb]))
-        self.closed[limb] = not self._shutting[limb]
+        self.closed[limb] = not self.shutting[limb]
 
     def _let_go(self, limb: int) -> None:
         if self._held[limb] >= 0:
             self._data.eq_active[self._held[limb]] = 0
         self._ends["hold"][limb], self._ends["over"][limb] = -1, 0
         self._touchable(limb, True)
-        self.closed[limb] = self._shutting[limb] = 0
+        self.closed[limb] = self.shutting[limb] = 0
 
     def _come_off(self, limb: int, time: float) -> None:
         hold = int(self._ends["hold"][limb])

@@ -149,6 +149,7 @@ class SpatialSim:
         sensed.wrenches[:] = self._feeling.read(self.ends.local, self.tick)
         sensed.torques[:] = self._given[0]
         sensed.closed[:] = self.ends.closed
+        sensed.shutting[:] = self.ends.shutting > 0
         sensed.number[0] = self.tick
         return sensed
 
