@@ -9,6 +9,7 @@ from typing import Any, Final, Generic, Protocol, TypeVar
 
 from ..interrupts import answer
 from ..jobs import Executor, Kept, Outcome, look_into, map_items
+from ..json_form import Count, in_json
 from ..notebook import Pictured
 from ..planning.problem.plan import Plan
 from ..types import Json
@@ -144,14 +145,26 @@ class Trials(Pictured, Generic[SetupT, TrialT]):
     wall_seconds: float = 0.0
     """All workers together, for the runs that ended."""
 
+    @in_json(after="asked")
+    def n(self) -> Count:
+        """Runs that ended."""
+        return len(self.ended)
+
     @property
+    @in_json(after="n")
     def done(self) -> int:
         """Runs that came to their end."""
         return sum(trial.done for trial in self.ended)
 
+    @property
+    @in_json(after="done")
+    def interval(self) -> tuple[float, float]:
+        """Of the share that came to their end, 95 %, Wilson's."""
+        return wilson_interval(self.done, len(self.ended))
+
     def told(self) -> str:
         """How many came to their end, with the interval of the share."""
-        low, high = wilson_interval(self.done, len(self.ended))
+        low, high = self.interval
         return f"{self.done} of {len(self.ended)} done, {100 * low:.0f} to {100 * high:.0f} % (95 %), of {self.setup.title}"
 
     def again(self, seed: int) -> Any:

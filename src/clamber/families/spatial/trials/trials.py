@@ -204,23 +204,6 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the runs that ended."""
 
-    @in_json(after="asked")
-    def n(self) -> Count:
-        """Runs that ended."""
-        return len(self.ended)
-
-    @property
-    @in_json(after="n")
-    def done(self) -> int:
-        """Runs whose plan came to its end."""
-        return sum(trial.done for trial in self.ended)
-
-    @property
-    @in_json(after="done")
-    def interval(self) -> tuple[float, float]:
-        """Of the share that came to their end, 95 %, Wilson's."""
-        return wilson_interval(self.done, len(self.ended))
-
     @in_json(after="interval")
     def causes(self) -> tuple[SpatialCause, ...]:
         """Why runs ended early, the commonest first."""

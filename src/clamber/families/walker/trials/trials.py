@@ -258,23 +258,6 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
     wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the walks that ended."""
 
-    @in_json(after="asked")
-    def n(self) -> Count:
-        """Walks that ended."""
-        return len(self.ended)
-
-    @property
-    @in_json(after="n")
-    def done(self) -> int:
-        """Walks that came to their end."""
-        return sum(trial.done for trial in self.ended)
-
-    @property
-    @in_json(after="done")
-    def interval(self) -> tuple[float, float]:
-        """Of the share that came to their end, 95 %, Wilson's."""
-        return wilson_interval(self.done, len(self.ended))
-
     @property
     @in_json(after="interval")
     def balanced(self) -> Count:
