@@ -25,6 +25,11 @@ LIKE: Final = "Start from this one in place of a made-up one."
 Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 
 
+def _named(kind: str, meaning: str) -> Any:
+    """An option for one of these: a shipped one by its name, or a file."""
+    return typer.Option(metavar="NAME|FILE", help=meaning, autocompletion=names_of(kind))
+
+
 @dataclass(frozen=True, slots=True)
 class BoardOptions:
     """Options of `clamber new board`, as they came."""
@@ -43,7 +48,7 @@ class BoardOptions:
         typer.Option(metavar="X,Y", help="Pixel of the board's origin; unless given, left of and below all holds."),
     ] = None
     radius: Annotated[str | None, typer.Option(help="Of holds of a table or a picture, such as 5mm.")] = None
-    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("boards"))] = None
+    like: Annotated[str | None, _named("boards", LIKE)] = None
     holds: Annotated[int, typer.Option(help="How many random holds.")] = 100
     density: Annotated[str, typer.Option(help="Holds per m^2, or with a unit, such as '2 holds/ft^2'.")] = "20"
     width: Annotated[str | None, typer.Option(help="Of the wall, such as 3m; as wide as high unless given.")] = None
@@ -135,7 +140,7 @@ def _kinds() -> None:
 @new.command("robot")
 def robot(
     limbs: Annotated[int | None, typer.Option(min=2, max=8, help="How many limbs; 4 unless given.")] = None,
-    like: Annotated[str | None, typer.Option(metavar="NAME|FILE", help=LIKE, autocompletion=names_of("robots"))] = None,
+    like: Annotated[str | None, _named("robots", LIKE)] = None,
     model: Annotated[
         Path | None, typer.Option("--from", metavar="FILE", help="Start from the limbs of this MJCF or URDF model.")
     ] = None,
@@ -214,34 +219,12 @@ def _write_board(
 
 @new.command("task")
 def task(
-    robot: Annotated[
-        str,
-        typer.Option(
-            metavar="NAME|FILE",
-            help="A climber or a robot in space (`clamber list robots`).",
-            autocompletion=names_of("robots"),
-        ),
-    ] = ROBOT,
-    board: Annotated[
-        str,
-        typer.Option(metavar="NAME|FILE", help="A board (`clamber list boards`).", autocompletion=names_of("boards")),
-    ] = BOARD,
+    robot: Annotated[str, _named("robots", "A climber or a robot in space (`clamber list robots`).")] = ROBOT,
+    board: Annotated[str, _named("boards", "A board (`clamber list boards`).")] = BOARD,
     world: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME|FILE",
-            help="In place of a board, of a robot in space (`clamber list worlds`).",
-            autocompletion=names_of("worlds"),
-        ),
+        str | None, _named("worlds", "In place of a board, of a robot in space (`clamber list worlds`).")
     ] = None,
-    like: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME|FILE",
-            help="Start from this task; its robot may be any.",
-            autocompletion=names_of("tasks"),
-        ),
-    ] = None,
+    like: Annotated[str | None, _named("tasks", "Start from this task; its robot may be any.")] = None,
     overrides: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="KEY=VALUE", help="Change one key of the task, such as rules.max_hangs=0."),
