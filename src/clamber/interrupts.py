@@ -13,6 +13,10 @@ T = TypeVar("T")
 
 AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
+UNSAFE: Final = ("llvmlite.", "numba.core.codegen.")
+"""Nothing is raised in these: lost in a callback of LLVM's, an exception leaves a kernel without code, and a call of it is a SIGSEGV."""
+HELD: Final = 0.02
+"""In such a call an interrupt waits, and is tried again after so long [s]."""
 
 
 @dataclass(slots=True)
@@ -117,9 +121,22 @@ def _hear(number: int, frame: FrameType | None) -> None:
 
 
 def _hear_again(number: int, frame: FrameType | None) -> None:
-    if _now.open:
-        signal.setitimer(signal.ITIMER_REAL, AGAIN)
-        raise KeyboardInterrupt
+    if not _now.open:
+        return
+    if _is_unsafe(frame):
+        signal.setitimer(signal.ITIMER_REAL, HELD)
+        return
+    signal.setitimer(signal.ITIMER_REAL, AGAIN)
+    raise KeyboardInterrupt
+
+
+def _is_unsafe(frame: FrameType | None) -> bool:
+    """Whether a frame belongs to a call into `UNSAFE`."""
+    while frame is not None:
+        if f"{frame.f_globals.get('__name__')}.".startswith(UNSAFE):
+            return True
+        frame = frame.f_back
+    return False
 
 
 def _tell_lost(lost: "sys.UnraisableHookArgs") -> None:

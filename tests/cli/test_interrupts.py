@@ -199,6 +199,29 @@ def test_an_interrupt_while_a_plan_is_searched_for_ends_the_command(words: str, 
         assert command.out == "" and said in command.err
 
 
+IN_CALLBACKS = """
+import os, signal
+from numba.core.codegen import JITCodeLibrary
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from clamber.cli import main
+asked_for = JITCodeLibrary._object_getbuffer_hook
+def interrupted(*module):
+    os.write(1, b"in LLVM\\n")
+    signal.raise_signal(signal.SIGINT)
+    return asked_for(*module)
+JITCodeLibrary._object_getbuffer_hook = interrupted
+main()
+"""
+"""LLVM asks for machine code that was loaded from the cache by a call back into Python, in which an exception is lost."""
+
+
+def test_an_interrupt_while_machine_code_is_loaded_leaves_no_kernel_without_code() -> None:
+    words = ["plan", "ladder", "--planner", "exact"]
+    ended = subprocess.run([sys.executable, "-c", IN_CALLBACKS, *words], capture_output=True, text=True, check=False)
+    assert "in LLVM" in ended.stdout, "every kernel was compiled anew: nothing was loaded"
+    assert ended.returncode == 130 and ended.stderr.endswith("clamber: interrupted\n"), ended
+
+
 @pytest.fixture
 def listens() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
