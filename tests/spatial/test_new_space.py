@@ -4,6 +4,7 @@ import json
 import math
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ from clamber.families.spatial.world.made import Fit, Kind, Wanted, world_data
 from clamber.families.spatial.world.world import World, build_world
 from clamber.files import Document
 from clamber.tasks import load_task
-from clamber.tasks.library import task_names
+from clamber.tasks.library import task_from_document, task_names
 from clamber.toml_text import toml_text
 
 Run = Callable[..., tuple[int, str, str]]
@@ -147,6 +148,20 @@ def test_mistakes_are_named(
     code, _, err = clamber("new", *words, "-o", "new.toml")
     assert code == 2 and told in " ".join(err.replace("│", " ").split()), err
     assert not (tmp_path / "new.toml").exists()
+
+
+def test_a_limbs_contact_and_its_numbers_are_set_and_kept() -> None:
+    task: Any = load_task("wall-gripper", ["limb.LF.contact=magnet", "contacts.gripper.pull=20 N"])
+    for one in (task, task_from_document(task.document)):
+        assert [end.kind for end in one.robot.ends] == ["magnet", "gripper", "gripper", "gripper"]
+        assert {end.pull for end in one.robot.ends[1:]} == {20.0}
+    assert task.hashes["robot"] != load_task("wall-gripper").hashes["robot"]
+    with pytest.raises(
+        SpecError, match=r"limb\.0\.contact = 'glue': no contact is called 'glue'; there are area, clamp"
+    ):
+        load_task("wall-gripper", ["limb.LF.contact=glue"])
+    with pytest.raises(SpecError, match=r"contacts\.gripper\.pull=-2 N: pull = .* must be more than 0 N"):
+        load_task("wall-gripper", ["contacts.gripper.pull=-2 N"])
 
 
 def test_lists_tell_of_worlds_and_of_the_family_of_every_task(clamber: Run) -> None:

@@ -16,7 +16,7 @@ from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, h
 from ....types import Json
 from ....units import Angle, Length, NonNegativeLength, PositiveAngle, PositiveLength, Quantity
 from ..robot.handling import Payload
-from ..robot.robot import RobotSpec, SpatialRobot, build_robot
+from ..robot.robot import RobotSpec, SpatialRobot, build_robot, whole_document
 from ..world.library import read_world
 from ..world.world import World, build_world
 from .checks import SPATIAL_CHECKS
@@ -195,6 +195,10 @@ def build_task(document: Document) -> SpatialTask:
     """
     check_schema(document, SCHEMA)
     parts = parts_of(document, "world")
+    parts["robot"] = carrier = whole_document(
+        parts["robot"]
+    )  # its limbs may have been given other contacts than its file's
+    document = replace(document, data=document.data | {"robot": carrier.data})
     stated = build_spec(SpatialTaskSpec, document, without=("schema", *parts, "labels"))
     check_angle(stated.step.angle, document)
     check_hard(stated.rules.hard, CHECK_NAMES, document)
@@ -207,7 +211,6 @@ def build_task(document: Document) -> SpatialTask:
             raise document.problem(
                 key, "asks for nothing; state along_min, along_max, across_min, across_max, or yaw_min and yaw_max"
             )
-    carrier = parts["robot"]
     if stated.payload is not None:
         carrier = replace(carrier, data=carrier.data | {"payload": document.data["payload"]})
     robot, world = build_robot(carrier), build_world(parts["world"])
@@ -250,6 +253,6 @@ FILES: Final = TaskFormat(
     build=build_task,
     task_spec=SpatialTaskSpec,
     task_keys=field_names(SpatialTaskSpec),
-    robot_keys=field_names(RobotSpec),
+    robot_keys=(*field_names(RobotSpec), "contacts"),
 )
 """How files of robots in space are read."""

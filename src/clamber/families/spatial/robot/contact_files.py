@@ -27,14 +27,14 @@ def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
 
 
 def stated_contacts(document: Document) -> Json:
-    """Documents of the contacts that a robot's limbs name, by these names.
+    """Documents of the contacts that a robot's limbs name, by these names; of one that the document states itself, that.
 
     Raises:
         SpecError: If there is no such contact.
         FileError: If a file can't be read.
     """
     limbs = document.data.get("limb")
-    found: Json = {}
+    found: Json = dict(document.section("contacts", document.label).data) if "contacts" in document.data else {}
     for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
         named = limb.get("contact") if isinstance(limb, dict) else None
         if isinstance(named, str) and named not in found:

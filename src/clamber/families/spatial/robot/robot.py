@@ -146,10 +146,8 @@ def whole_document(document: Document) -> Document:
         SpecError: If it names no model, or a contact that there is not.
         FileError: If a file can't be read.
     """
-    if "parts" in document.data:
-        return document
-    tree = read_model(model_path(document)).tree
-    return replace(document, data=document.data | {"parts": _plain(tree), "contacts": stated_contacts(document)})
+    parts = document.data["parts"] if "parts" in document.data else _plain(read_model(model_path(document)).tree)
+    return replace(document, data=document.data | {"parts": parts, "contacts": stated_contacts(document)})
 
 
 def model_path(document: Document) -> Path:
@@ -240,11 +238,8 @@ def _end(document: Document, limb: LimbSpec) -> ContactKind:
     """What a limb holds on with."""
     if isinstance(limb.contact, dict):
         return build_contact(Document(f"{document.label} [limb.{limb.name}.contact]", limb.contact))
-    contacts = document.data.get("contacts")
-    stated = contacts.get(limb.contact) if isinstance(contacts, dict) else None
-    if not isinstance(stated, dict):
-        raise document.problem(f"limb.{limb.name}.contact", "must name a contact that stands under 'contacts'")
-    return build_contact(Document(f"contact '{limb.contact}' of {document.label}", stated))
+    label = f"contact '{limb.contact}' of {document.label}"
+    return build_contact(document.section("contacts", label).section(limb.contact, label))
 
 
 def _tip_link(document: Document, limb: LimbSpec, tree: Tree) -> str:
