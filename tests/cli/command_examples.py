@@ -43,6 +43,7 @@ LONG = (
     "run level-walk --set way.0.distance=3cm",
     'run level-walk --set way.0.distance=60cm --set \'hold={x="0.6m",y="0.1m",z="0.5m"}\'',
     "trials two.json -n 2 --workers 1",
+    "trials two.json --against two.json -n 1 --workers 1",
     "trials two.json --replay 1",
     "trials two.json --fault nan -n 1 --workers 1",
     "validate two.json -n 2 --lessons 0 --workers 1",

@@ -1,11 +1,15 @@
 """`clamber trials`: what it prints, writes and refuses."""
 
 import json
+import math
 import sqlite3
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from clamber.execution.log_files import read_log
 from clamber.families.climber.execution.climb_trace import ClimbTrace
@@ -14,6 +18,7 @@ from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
+from clamber.trials.trial_runs import PairingError, Trials
 
 
 def plan_file(folder: Path, *numbers: int) -> str:
@@ -82,9 +87,57 @@ def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_pat
     assert clamber(*words, "--at-least", "35%")[0] == 1
 
 
+@pytest.mark.usefixtures("in_this_process")
+def test_two_plans_are_compared_with_the_same_seeds(clamber: Any, tmp_path: Path) -> None:
+    good, fallen, store = plan_file(tmp_path, 300), tmp_path / "falls", tmp_path / "trials.db"
+    fallen.mkdir()
+    falls = plan_file(fallen, 300, *([4] * 8))
+    words = ("trials", good, "--against", falls, "-n", "2", "--force", "--workers", "1", "-q", "--store", str(store))
+    code, out, _ = clamber(*words)
+    assert code == 0
+    assert "2 of 2 climbs" in out and "0 of 2 climbs" in out
+    assert " ".join(out.split()).endswith(
+        "both done 0, only the first 2, only the second 0, neither 0; p = 0.5 (sign test, two-sided)"
+    )
+    assert (tmp_path / "trials-against.db").exists()
+    code, out, _ = clamber(*words, "--resume", "--json", "--at-least", "99%")
+    told = json.loads(out)
+    assert code == 1 and told["paired"] == {"both": 0, "first": [0, 1], "second": [], "neither": 0, "p": 0.5}
+    assert (told["first"]["done"], told["second"]["done"]) == (2, 0)
+
+
+@dataclass(frozen=True)
+class Done:
+    seed: int
+    done: bool
+
+
+@given(
+    st.dictionaries(st.integers(0, 40), st.booleans(), min_size=1),
+    st.dictionaries(st.integers(0, 40), st.booleans(), min_size=1),
+)
+def test_a_comparison_is_over_shared_seeds_and_the_same_from_either_side(
+    one: dict[int, bool], other: dict[int, bool]
+) -> None:
+    setup: Any = None
+    mine, theirs = (Trials(setup, len(each), [Done(*pair) for pair in each.items()]) for each in (one, other))
+    if not one.keys() & other.keys():
+        with pytest.raises(PairingError, match="no seed in common"):
+            mine.against(theirs)
+        return
+    paired, back = mine.against(theirs), theirs.against(mine)
+    assert (paired.first, paired.second, paired.both, paired.p) == (back.second, back.first, back.both, back.p)
+    n, fewer = len(paired.first) + len(paired.second), min(len(paired.first), len(paired.second))
+    assert paired.both + paired.neither + n == len(one.keys() & other.keys())
+    tail = sum(math.comb(n, k) for k in range(fewer + 1)) / 2**n
+    assert paired.p == pytest.approx(min(1.0, 2.0 * tail))
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
+        (("ladder", "--against", "missing.json"), "missing.json"),
+        (("ladder", "--against", "h", "--replay", "3"), "--against"),
         (("ladder", "--noise", "frction=30%"), "friction"),
         (("ladder", "--noise", "friction=30mm"), "ratio"),
         (("ladder-hand", "--noise", "hook_play=2mm"), "all that there is"),

@@ -1,6 +1,7 @@
 """What a seed makes of a robot in space and its world stays within its widths, is the same each time, and can be stated by texts."""
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import pytest
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws, read_spatial_flaws
 from clamber.families.spatial.trials.noise import SPATIAL_NOISE, named_spatial_noise, read_spatial_noise
-from clamber.families.spatial.trials.trials import SpatialSetup, cause_of
+from clamber.families.spatial.trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 from clamber.sim.plant_rules import PlantError
 from clamber.tasks.library import load_task
 from clamber.trials.noise import NoiseError
@@ -79,6 +80,29 @@ def test_trials_are_told_from_others_and_a_failed_one_counts(task: SpatialTask) 
     assert trials.to_json()["n"] == 2
 
 
-def test_causes_are_told_without_their_numbers() -> None:
-    assert cause_of("step 3, LF to hold 7: missed: nothing to hold on to") == "missed"
-    assert cause_of("fell: the body is 88 mm from where it is to be") == "fell"
+def test_causes_are_told_without_their_numbers_the_commonest_first() -> None:
+    reasons = (
+        "fell: the body is 88 mm from where it is to be",
+        "step 3, LF to hold 7: missed: nothing to hold on to",
+        "",
+        "step 9, RF to hold 2: missed: off",
+    )
+    setup: Any = None
+    trials = SpatialTrials(setup, 4, [ended(seed, reason) for seed, reason in enumerate(reasons)])
+    missed, fell = trials.causes()
+    assert (missed.words, missed.n, missed.seeds, missed.reason) == ("missed", 2, (1, 3), reasons[1])
+    assert (fell.words, fell.seeds, fell.steps) == ("fell", (0,), (5,))
+
+
+def ended(seed: int, reason: str) -> SpatialTrial:
+    return SpatialTrial(
+        seed=seed,
+        done=not reason,
+        reason=reason,
+        seconds=1.0,
+        actions=5,
+        off=0.0,
+        lost=None,
+        breaks=0,
+        wall_seconds=1.0,
+    )

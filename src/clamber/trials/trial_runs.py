@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final, Generic, Protocol, TypeVar
 
+from ..errors import ClamberError
 from ..interrupts import answer
 from ..jobs import Executor, Kept, Outcome, look_into, map_items
-from ..json_form import Count, in_json
+from ..json_form import Count, Jsonable, in_json
 from ..notebook import Pictured
 from ..planning.problem.plan import Plan
 from ..types import Json
@@ -52,6 +53,51 @@ class Trial(Protocol):
     @property
     def fault(self) -> Json | None:
         """The fault that the robot had; see `told_fault`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Cause:
+    """Runs that ended early in the same way."""
+
+    words: str
+    """Such as "fell"."""
+    n: int
+    interval: tuple[float, float]
+    """Of their share of all runs, 95 %, Wilson's."""
+    steps: tuple[Count, ...]
+    """After how many steps or actions, each once."""
+    seeds: tuple[Count, ...]
+    reason: str
+    """Of the first one."""
+
+
+class PairingError(ClamberError):
+    """Trials that cannot be compared seed by seed."""
+
+    def __str__(self) -> str:
+        return "trials are compared seed by seed, and these have no seed in common"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Paired(Jsonable):
+    """Trials of two works, seed by seed, over the seeds that both have."""
+
+    both: Count
+    """Seeds with which both came to their end."""
+    first: tuple[Count, ...]
+    """Seeds with which only the first did."""
+    second: tuple[Count, ...]
+    """Seeds with which only the second did."""
+    neither: Count
+    p: float
+    """Chance that they differ so unevenly or more if each seed goes either way alike (sign test, two-sided) [-]."""
+
+    def told(self) -> str:
+        """The same in words."""
+        return (
+            f"seed by seed: both done {self.both}, only the first {len(self.first)}, only the second {len(self.second)}, "
+            f"neither {self.neither}; p = {self.p:.2g} (sign test, two-sided)"
+        )
 
 
 TrialT = TypeVar("TrialT", bound=Trial)
@@ -162,6 +208,30 @@ class Trials(Pictured, Generic[SetupT, TrialT]):
         """Of the share that came to their end, 95 %, Wilson's."""
         return wilson_interval(self.done, len(self.ended))
 
+    def against(self, other: "Trials[Any, Any]") -> Paired:
+        """These and those of another work, seed by seed.
+
+        Raises:
+            PairingError: If they have no seed in common.
+        """
+        from scipy.stats import binomtest
+
+        mine, theirs = ({trial.seed: trial.done for trial in trials.ended} for trials in (self, other))
+        shared = sorted(mine.keys() & theirs.keys())
+        if not shared:
+            raise PairingError
+        first = tuple(seed for seed in shared if mine[seed] > theirs[seed])
+        second = tuple(seed for seed in shared if mine[seed] < theirs[seed])
+        both = sum(mine[seed] and theirs[seed] for seed in shared)
+        apart = len(first) + len(second)
+        return Paired(
+            both=both,
+            first=first,
+            second=second,
+            neither=len(shared) - both - apart,
+            p=float(binomtest(len(first), apart).pvalue) if apart else 1.0,
+        )
+
     def told(self) -> str:
         """How many came to their end, with the interval of the share."""
         low, high = self.interval
@@ -171,6 +241,29 @@ class Trials(Pictured, Generic[SetupT, TrialT]):
         """One of them once more, with its whole run, as `clamber.run` gives it."""
         run, _ = self.setup.again(seed, None, lambda words, share: None)
         return run
+
+
+def causes_of(
+    trials: Sequence[TrialT], reason: Callable[[TrialT], str], steps: Callable[[TrialT], int]
+) -> tuple[Cause, ...]:
+    """Why runs ended early, the commonest first, by what their reasons say without numbers: "fell" of "step 3: fell: the robot tips"."""
+    found: dict[str, list[TrialT]] = {}
+    for trial in trials:
+        if not trial.done:
+            parts = [part.strip() for part in reason(trial).split(":")]
+            words = parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
+            found.setdefault(words, []).append(trial)
+    return tuple(
+        Cause(
+            words,
+            len(alike),
+            wilson_interval(len(alike), len(trials)),
+            tuple(sorted({steps(each) for each in alike})),
+            tuple(each.seed for each in alike),
+            reason(alike[0]),
+        )
+        for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
+    )
 
 
 def run_trials(

@@ -1,7 +1,7 @@
 """Shares, causes and faults of many runs as a terminal shows them."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 from rich.console import Console
 
@@ -31,6 +31,15 @@ def some(numbers: Sequence[int]) -> str:
     """The first few numbers of many."""
     shown = ", ".join(map(str, numbers[:MOST_NAMED]))
     return f"{shown} ..." if len(numbers) > MOST_NAMED else shown
+
+
+def print_causes(console: Console, causes: Sequence[Any], steps: str = "steps") -> None:
+    """Print a row for each way in which runs ended early (such as a `trial_runs.Cause`), and the reason of the commonest."""
+    table = plain_table("failed", "times", "of all, 95 %", steps, "seeds", right=("times",))
+    for cause in causes:
+        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
+    console.print(table)
+    console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)
 
 
 def any_error(rows: Sequence[FaultRow]) -> bool:

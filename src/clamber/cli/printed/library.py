@@ -33,6 +33,7 @@ from ..new import NewRobot, NewTask
 from ..new_files import NewBoard
 from ..plan.openings import NoStart, Planned
 from ..show import Drawn
+from ..trials.carried_out import Compared
 from ..view import Opened, Saved
 from .schemas import STRICT, modelled
 
@@ -78,6 +79,7 @@ OURS: Final[dict[str, Any]] = {
     "new board": NewBoard,
     "new robot": NewRobot,
     "new task": NewTask,
+    "trials": Compared,
     "limb step": LimbResult,
     "limb circle": LimbResult,
     "limb push": LimbResult,

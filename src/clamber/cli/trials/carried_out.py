@@ -1,9 +1,13 @@
 """A task, a plan or a walk carried out with many seeds, or with one of them again, and what is told of them."""
 
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 import typer
 
+from ...json_form import Jsonable, plain
 from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
@@ -12,22 +16,67 @@ from ...terminal.output import announce_compilation, print_json, refuse_unused, 
 from ...terminal.worker_options import WorkerOptions
 from ...trials.dynamics import NoPlanError, RunEvents, TrialsRequest
 from ...trials.fault_trials import fault_rows
-from ...trials.trial_runs import Setup, Trials, run_trials, stored_result, wilson_interval
+from ...trials.trial_runs import Paired, Setup, Trials, run_trials, stored_result, wilson_interval
 from ...trials.work import Work
+from ...types import Json
 from ...viewing.trials_text import any_error, percent
 from .command import TrialsOptions
 
 
-def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
-    """Carry it out with every seed; leaves with 1 where one failed, or fewer than asked for succeed for sure.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Compared(Jsonable):
+    """Two works tried with the same seeds."""
 
-    With faults a run may fail: then it leaves with 1 only where one raised.
+    first: Json
+    """As `clamber trials` prints them."""
+    second: Json
+    paired: Paired
+
+
+def try_out(works: Sequence[Work], asked: TrialsOptions, words: WorkerOptions) -> None:
+    """Carry works out with every seed; leaves with 1 where one failed, or fewer than asked for succeed for sure.
+
+    With faults a run may fail: then it leaves with 1 only where one raised; with two works it leaves with 0 unless a share is asked for.
 
     Args:
-        work: What is carried out.
+        works: What is carried out, and what it is compared with.
         asked: How, and how often.
         words: Who runs them, where they are kept, how they are told.
     """
+    requests = [_request(work, asked, words) for work in works]
+    if asked.replay is None:
+        words.executor.check()  # before a minute is spent on a plan
+    announce_compilation(quiet=words.quiet)
+    tried = []
+    for number, (work, request) in enumerate(zip(works, requests, strict=True)):
+        store = words.store if number == 0 else _beside(words.store)
+        tried.append(_tried(work, request, asked, replace(words, store=store)))
+        if len(tried[-1].ended) < asked.n:
+            break
+    told = [work.dynamics.trials_json(trials, asked.held_out) for work, trials in zip(works, tried, strict=False)]
+    paired = tried[0].against(tried[1]) if len(tried) == 2 and tried[1].ended else None
+    if words.as_json:
+        print_json(told[0] if paired is None else Compared(first=plain(told[0]), second=plain(told[1]), paired=paired))
+    else:
+        for work, trials in zip(works, tried, strict=False):
+            work.dynamics.print_trials(stdout(), trials, asked.seeds)
+        if paired is not None:
+            stdout().print(paired.told())
+    for work, trials, file in zip(works, tried, (words.output, _beside(words.output)), strict=False):
+        if file is not None:
+            work.dynamics.draw_trials(trials, file)
+            if not words.as_json:
+                stdout().print(f"written: {file}", soft_wrap=True)
+    raise typer.Exit(max(_exit_code(trials, asked.least, lenient=len(works) > 1) for trials in tried))
+
+
+def _beside(file: Path | None) -> Path | None:
+    """Where what is compared is kept: beside what it is compared with."""
+    return None if file is None else file.with_name(f"{file.stem}-against{file.suffix}")
+
+
+def _request(work: Work, asked: TrialsOptions, words: WorkerOptions) -> TrialsRequest:
+    """How a work is tried, after everything that can't be was refused."""
     dynamics = work.dynamics
     refuse_unused(asked, dynamics.unused(work.item), f"'{work.label}' is a {dynamics.kind}")
     if words.output is not None:
@@ -45,16 +94,19 @@ def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
         faults=tuple(asked.fault or ()),
     )
     dynamics.check(work.item, request)
-    if asked.replay is None:
-        words.executor.check()  # before a minute is spent on a plan
-    announce_compilation(quiet=words.quiet)
+    return request
+
+
+def _tried(work: Work, request: TrialsRequest, asked: TrialsOptions, words: WorkerOptions) -> Trials[Any, Any]:
+    """Carry a work out with every seed, or leave with the one that is to be seen again."""
+    dynamics = work.dynamics
     compile_ahead(*dynamics.compiled)
     with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
         setup = _planned(work, request, words, line)
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))
         line.show(f"0 of {asked.n} {dynamics.past}, the first ones are on their way", 0.0, now=True)
-        trials = run_trials(
+        return run_trials(
             setup,
             asked.seeds,
             executor=words.executor,
@@ -64,23 +116,16 @@ def try_out(work: Work, asked: TrialsOptions, words: WorkerOptions) -> None:
                 _so_far(trials, dynamics.past), len(trials.ended) / trials.asked, now=len(trials.ended) == 1
             ),
         )
-    if words.output is not None:
-        dynamics.draw_trials(trials, words.output)
-    if words.as_json:
-        print_json(dynamics.trials_json(trials, asked.held_out))
-    else:
-        dynamics.print_trials(stdout(), trials, asked.seeds)
-        if words.output is not None:
-            stdout().print(f"written: {words.output}", soft_wrap=True)
-    raise typer.Exit(_exit_code(trials, asked.least))
 
 
-def _exit_code(trials: Trials[Any, Any], least: float | None) -> int:
+def _exit_code(trials: Trials[Any, Any], least: float | None, *, lenient: bool) -> int:
     n, done = len(trials.ended), trials.done
     if n < trials.asked:
         return 130
     if trials.setup.faults and least is None:
         return 1 if any_error(fault_rows(trials.ended)) else 0
+    if lenient and least is None:
+        return 0
     return 0 if (done == n if least is None else wilson_interval(done, n)[0] >= least) else 1
 
 

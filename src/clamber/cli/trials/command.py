@@ -42,6 +42,14 @@ class TrialsOptions:
     at_least: Annotated[
         str | None, typer.Option(help="Leave with 0 only if success is at least this with 97.5 % confidence.")
     ] = None
+    against: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TASK|PLAN|WALK",
+            help="Try this with the same seeds, and compare (sign test).",
+            autocompletion=names_of("tasks", "plans", "walks"),
+        ),
+    ] = None
     replay: Annotated[
         int | None, typer.Option(min=0, metavar="SEED", help="Climb this one trial again, for -o a log or a picture.")
     ] = None
@@ -75,11 +83,13 @@ class TrialsOptions:
         """Refuse what can't be, before anything is planned.
 
         Raises:
-            BadParameter: If `at_least` is no share.
+            BadParameter: If `at_least` is no share, or one run is to be compared.
             HeldOutError: If some seeds are held out and some are not.
         """
         if self.at_least is not None:
             _share(self.at_least)
+        if self.against is not None and self.replay is not None:
+            raise typer.BadParameter("compares many runs; --replay is one", param_hint="--against")
         from ...trials.held_out import are_held_out
 
         are_held_out(self.seeds)
@@ -118,4 +128,5 @@ def trials(
     from .carried_out import try_out
 
     asked.check()
-    try_out(open_work(what, asked.task, asked.overrides or ()), asked, words)
+    named = [what] if asked.against is None else [what, asked.against]
+    try_out([open_work(each, asked.task, asked.overrides or ()) for each in named], asked, words)

@@ -8,12 +8,12 @@ from rich.console import Console
 from ....shown_units import SI, ShownUnits, units_of
 from ....trials.held_out import seeds_in_words
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import percent, print_faults, share_range, some
+from ....viewing.trials_text import percent, print_causes, print_faults
 from ..execution.climb_report import ActionReport
 from ..trials.noise import NOISE
 from ..trials.run_plan import ClimbRun
 from ..trials.sensitivity import VERDICTS, Effect, Third
-from ..trials.trial_summary import Cause, Spread, TrialSummary
+from ..trials.trial_summary import Spread, TrialSummary
 
 
 def print_run(console: Console, run: ClimbRun) -> None:
@@ -115,15 +115,6 @@ def print_trials(console: Console, summary: TrialSummary, seeds: Sequence[int], 
         print_faults(console, summary.faults)
     if summary.effects:
         _print_effects(console, summary.effects)
-
-
-def print_causes(console: Console, causes: tuple[Cause, ...]) -> None:
-    """Print a row for each way in which climbs ended early, and the reason of the commonest."""
-    table = plain_table("failed", "times", "of all, 95 %", "steps", "seeds", right=("times",))
-    for cause in causes:
-        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
-    console.print(table)
-    console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}")
 
 
 def _print_effects(console: Console, effects: tuple[Effect, ...]) -> None:

@@ -7,7 +7,7 @@ from rich.console import Console
 
 from ....trials.held_out import seeds_in_words
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import share_range, some
+from ....viewing.trials_text import print_causes
 from ..trials.trials import SpatialTrials
 
 SPREAD = ("median", "5 %", "95 %", "least", "most")
@@ -29,13 +29,7 @@ def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequenc
     console.print(seeds_in_words(seeds))
     causes = trials.causes()
     if causes:
-        table = plain_table("failed", "times", "of all, 95 %", "after actions", "seeds", right=("times",))
-        for cause in causes:
-            table.add_row(
-                cause.words, str(cause.n), share_range(cause.interval), some(cause.actions), some(cause.seeds)
-            )
-        console.print(table)
-        console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)
+        print_causes(console, causes, "after actions")
     table = plain_table("", *SPREAD, right=SPREAD)
     for title, name, unit, digits in ROWS:
         values = trials.of(name) / unit

@@ -12,7 +12,7 @@ from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
-from ....trials.trial_runs import Setup, Trials, wilson_interval
+from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
@@ -49,21 +49,6 @@ class SpatialTrial(Jsonable):
     def fault(self) -> None:
         """There are none."""
         return None
-
-
-@dataclass(frozen=True, slots=True)
-class SpatialCause:
-    """Runs that ended early in the same way."""
-
-    words: str
-    n: int
-    interval: tuple[float, float]
-    """Of their share of all runs, 95 %, Wilson's."""
-    actions: tuple[Count, ...]
-    """After how many, each once."""
-    seeds: tuple[Count, ...]
-    reason: str
-    """Of the first one."""
 
 
 def run_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> SpatialRun:
@@ -205,30 +190,10 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     """All workers together, for the runs that ended."""
 
     @in_json(after="interval")
-    def causes(self) -> tuple[SpatialCause, ...]:
+    def causes(self) -> tuple[Cause, ...]:
         """Why runs ended early, the commonest first."""
-        found: dict[str, list[SpatialTrial]] = {}
-        for trial in self.ended:
-            if not trial.done:
-                found.setdefault(cause_of(trial.reason), []).append(trial)
-        return tuple(
-            SpatialCause(
-                words,
-                len(alike),
-                wilson_interval(len(alike), len(self.ended)),
-                tuple(sorted({each.actions for each in alike})),
-                tuple(each.seed for each in alike),
-                alike[0].reason,
-            )
-            for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
-        )
+        return causes_of(self.ended, attrgetter("reason"), attrgetter("actions"))
 
     def of(self, name: str) -> Floats:
         """A number of all runs that have it."""
         return np.array([value for trial in self.ended if (value := getattr(trial, name)) is not None], np.float64)
-
-
-def cause_of(reason: str) -> str:
-    """The reason of a run that ended early without its numbers, such as "fell" of "step 3, LF to hold 7: fell: the body is off"."""
-    parts = [part.strip() for part in reason.split(":")]
-    return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]

@@ -11,11 +11,11 @@ from ....trials.held_out import seeds_in_words
 from ....trials.trial_runs import wilson_interval
 from ....units import DEGREE
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import print_faults, share_range, some
+from ....viewing.trials_text import print_causes, print_faults, some
 from ..execution.walk_report import WalkReport
 from ..trials.held_point import HeldPoint
 from ..trials.run_walk import WalkRun
-from ..trials.trials import LEVEL, WalkCause, WalkTrials
+from ..trials.trials import LEVEL, WalkTrials
 
 
 def print_walk(console: Console, run: WalkRun) -> None:
@@ -96,7 +96,7 @@ def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]
     )
     causes = trials.causes()
     if causes:
-        print_walk_causes(console, causes)
+        print_causes(console, causes)
     if trials.setup.faults:
         print_faults(console, fault_rows(trials.ended))
     lost = [trial.seed for trial in trials.ended if trial.done and not (trial.margin or 0.0) > 0.0]
@@ -127,12 +127,3 @@ def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]
         console.print(
             f"{trials.wall_seconds:.0f} s of computing: {walked / trials.wall_seconds:.0f} times as fast as they happen"
         )
-
-
-def print_walk_causes(console: Console, causes: Sequence[WalkCause]) -> None:
-    """Print a row for each way in which walks ended early, and the reason of the commonest."""
-    table = plain_table("failed", "times", "of all, 95 %", "steps", "seeds", right=("times",))
-    for cause in causes:
-        table.add_row(cause.words, str(cause.n), share_range(cause.interval), some(cause.steps), some(cause.seeds))
-    console.print(table)
-    console.print(f"seed {causes[0].seeds[0]}: {causes[0].reason}", soft_wrap=True)

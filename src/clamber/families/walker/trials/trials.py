@@ -15,7 +15,7 @@ from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
-from ....trials.trial_runs import Setup, Trials, wilson_interval
+from ....trials.trial_runs import Cause, Setup, Trials, causes_of, wilson_interval
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
 from ..execution.own_sensors import FORCES, INCLINES, channels_of
@@ -52,22 +52,6 @@ LEVEL: Final = 0.1 * DEGREE
 """A plate counts as level within this [rad]: what the paper's robot levels itself to."""
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
-
-
-@dataclass(frozen=True, slots=True)
-class WalkCause:
-    """Walks that ended early in the same way."""
-
-    words: str
-    """Such as "fell"."""
-    n: int
-    interval: tuple[float, float]
-    """Of their share of all walks, 95 %, Wilson's."""
-    steps: tuple[Count, ...]
-    """At which, each once."""
-    seeds: tuple[Count, ...]
-    reason: str
-    """Of the first one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -276,23 +260,9 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
         return wilson_interval(self.balanced, len(self.ended))
 
     @in_json(after="balanced_interval")
-    def causes(self) -> tuple[WalkCause, ...]:
-        """Why walks ended early, the commonest first."""
-        early = [trial for trial in self.ended if not trial.done]
-        found: dict[str, list[WalkTrial]] = {}
-        for trial in early:
-            found.setdefault(cause_of(trial.reason), []).append(trial)
-        return tuple(
-            WalkCause(
-                words,
-                len(alike),
-                wilson_interval(len(alike), len(self.ended)),
-                tuple(sorted({each.steps for each in alike})),
-                tuple(each.seed for each in alike),
-                alike[0].reason,
-            )
-            for words, alike in sorted(found.items(), key=lambda pair: -len(pair[1]))
-        )
+    def causes(self) -> tuple[Cause, ...]:
+        """Why runs ended early, the commonest first."""
+        return causes_of(self.ended, attrgetter("reason"), attrgetter("steps"))
 
     @in_json(after="causes")
     def faults(self) -> tuple[FaultRow, ...]:
@@ -304,9 +274,3 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
         return np.array(
             [value for trial in self.ended if (value := getattr(trial, name)) is not None], dtype=np.float64
         )
-
-
-def cause_of(reason: str) -> str:
-    """The reason of a walk that ended early without its numbers, such as "fell" of "step 3: fell: the robot tips"."""
-    parts = [part.strip() for part in reason.split(":")]
-    return parts[1] if parts[0].startswith("step ") and len(parts) > 1 else parts[0]
