@@ -42,15 +42,17 @@ $(STAMP): requirements.txt pyproject.toml
 $(RUN_STAMP): requirements-run.txt pyproject.toml
 	$(call install,requirements-run.txt,$(RUN_STAMP))
 
-demo: $(RUN_STAMP)  ## plan a climb up the ladder, climb it in contact dynamics, draw both
+demo: $(RUN_STAMP)  ## plan a climb up the ladder and one up a wall in space, climb both in contact dynamics, draw them
 	@mkdir -p out
 	$(BIN)/clamber run ladder --peg-error 3mm --save-plan out/ladder.json -o out/climb.gif -o out/climb.mcap > out/climb.txt \
 		|| { cat out/climb.txt; exit 1; }
 	@cat out/climb.txt
 	$(BIN)/clamber check out/ladder.json
 	$(BIN)/clamber show out/ladder.json -o out/ladder.png
+	$(BIN)/clamber run wall-gripper --save-plan out/wall.json -o out/wall.gif -o out/wall.mcap > out/wall.txt || { cat out/wall.txt; exit 1; }
+	@cat out/wall.txt
 	@echo "Look at out/climb.gif (the climb as it was), out/climb.txt (what became of every action), out/climb.mcap (its log),"
-	@echo "out/ladder.png (the plan in one picture) and out/ladder.json (the plan)."
+	@echo "out/ladder.png (the plan in one picture) and out/ladder.json (the plan); out/wall.* are the same of a robot in space."
 
 test: setup  ## fast tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not long"
