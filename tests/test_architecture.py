@@ -248,6 +248,20 @@ def test_numba_is_imported_only_where_kernels_are() -> None:
     assert not wrong, f"take `kernel` from clamber.compiled: {wrong}"
 
 
+def test_nothing_outside_families_asks_of_what_kind_a_robot_is() -> None:
+    """No `isinstance` with a class of a family: what differs by robot is a question to its family."""
+    wrong = []
+    for path in FILES:
+        if "families" in module_parts(path):
+            continue
+        theirs = {found.module.split(".")[-1] for found in imports_in(path) if ".families." in f".{found.module}"}
+        for node in ast.walk(ast.parse(path.read_bytes())):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) in {"isinstance", "issubclass"}:
+                asked = {name.id for name in ast.walk(node.args[1]) if isinstance(name, ast.Name)}
+                wrong += [f"{where(path, node.lineno)}: {name}" for name in asked & theirs]
+    assert not wrong, "\n".join(wrong)
+
+
 def test_only_kernel_compiles() -> None:
     """`numba.njit` and its like elsewhere would use Numba's own cache, which misses changes in called functions."""
     wrong = []

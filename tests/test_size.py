@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_493,
+    "lines": 100_491,
     "files": 667,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 57,

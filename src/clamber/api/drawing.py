@@ -4,7 +4,6 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ClamberError
-from ..families.climber.trials.plan_repair import LearnedPlan
 from ..family import family_of
 from ..inspection.open_file import kind_of
 from ..limb_bench.pictures.comparison import draw_comparison
@@ -54,13 +53,14 @@ def draw(what: Any, path: str | Path, *, step: int | None = None, layer: str | N
         ClamberError: If the file cannot be written, or its suffix names nothing that can be made of it.
     """
     file = Path(path)
+    made = what if isinstance(what, PlanResult) else getattr(what, "plan", what)  # such as what a plan has learned
     if isinstance(what, CarriedOut):
         draw_run(what, file)
     elif file.suffix.lower() == ".html":
         from ..viewing.browser.page import write_page
         from .viewing import exhibit_for  # loads the viewer
 
-        write_page(exhibit_for((what.plan if isinstance(what, LearnedPlan) else what,)), file)
+        write_page(exhibit_for((made,)), file)
     elif isinstance(what, LimbResult):
         draw_comparison(what, file)
     elif isinstance(what, Trials):
@@ -71,9 +71,8 @@ def draw(what: Any, path: str | Path, *, step: int | None = None, layer: str | N
         draw_reach(what, choose_layer(what.task, layer), file)
     elif isinstance(what, PlanResult):
         _draw_plan(what.task, what.plan, file, step)
-    elif isinstance(what, Plan | LearnedPlan):
-        plan = what if isinstance(what, Plan) else what.plan
-        _draw_plan(plan.rebuild_task(), plan, file, step)
+    elif isinstance(made, Plan):
+        _draw_plan(made.rebuild_task(), made, file, step)
     elif isinstance(what, Task):
         draw_stance(what, None, 0, file)
     elif isinstance(what, str | Path):

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
 
-from ...errors import SpecError
-from ...families.climber.planning.task import LimbedTask
+from ...families.climber.planning.task import LimbedTask, limbed
 from ...planning.genetic.planner import plan_genetic
 from ...planning.problem.plan_source import OpenedPlan, open_plan
 from ...planning.problem.problem import Replay
@@ -42,8 +41,7 @@ class Replayed:
     @property
     def task(self) -> LimbedTask:
         """The task that it is for."""
-        assert isinstance(self.opened.task, LimbedTask), "printed plans are for limbed robots"
-        return self.opened.task
+        return limbed(self.opened.task, self.opened.label)
 
 
 def replay_printed(name: str, overrides: Sequence[str] = (), *, go_on: bool = False) -> Replayed:
@@ -62,10 +60,7 @@ def replay_printed(name: str, overrides: Sequence[str] = (), *, go_on: bool = Fa
 
 def limbed_task(name: str, overrides: Sequence[str] = ()) -> LimbedTask:
     """A task of a limbed robot by name."""
-    task = load_task(name, overrides)
-    if not isinstance(task, LimbedTask):
-        raise SpecError(name, "robot", task.robot.name, "must be a limbed robot; the study is about one")
-    return task
+    return limbed(load_task(name, overrides), name)
 
 
 ABOUT_1900: Final = (1850.0, 1950.0)

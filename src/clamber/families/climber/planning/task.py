@@ -7,8 +7,10 @@ from typing import Annotated, Final, Literal
 
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
+from ....errors import SpecError
 from ....notebook import Pictured
 from ....specs import Name, spec
+from ....tasks import Task
 from ....tasks.regions import GoalBox
 from ....types import Json
 from ....units import (
@@ -184,3 +186,10 @@ class LimbedTask(Pictured):
     """Robot, board and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
     hashes: Mapping[str, str] = field(default_factory=dict)
     """"robot", "board", "task" -> SHA-256 of that part of `document`."""
+
+
+def limbed(task: Task, label: str) -> LimbedTask:
+    """A task as one of a limbed climber; a `SpecError` calls one of another family by the label."""
+    if not isinstance(task, LimbedTask):
+        raise SpecError(label, "robot", task.robot.name, "must be a limbed climber")
+    return task

@@ -15,7 +15,7 @@ from ....planning.problem.problems import ActionError
 from ....specs import build_spec, spec
 from ....tasks import Task, load_task
 from .plans import hold_code, thesis_code
-from .task import LimbedTask
+from .task import LimbedTask, limbed
 
 Positive = Annotated[float, Field(strict=True, gt=0.0, allow_inf_nan=False)]
 Number = Annotated[int, Field(strict=True, ge=0, le=999)]
@@ -120,9 +120,7 @@ def load_thesis_plan(path: Path) -> ThesisPlan:
 def open_thesis_plan(path: Path, name: str | None, overrides: tuple[str, ...]) -> OpenedPlan:
     """A printed plan with its task; `name` and `overrides` take the place of the task that it names."""
     printed, label = load_thesis_plan(path), str(path)
-    task = printed.load_task(name, overrides)
-    if not isinstance(task, LimbedTask):
-        raise SpecError(label, "task", task.name, "must be the task of a limbed robot; such a plan knows no other")
+    task = limbed(printed.load_task(name, overrides), f"task of {label}")
     taken = printed.step_overrides(overrides)
     notes = (f"step sizes as the plan file says: {', '.join(taken)}",) if taken else ()
     asked = None if printed.actual_peg is None else np.array(printed.asked(task, label), np.int32)

@@ -10,7 +10,6 @@ from typing import Annotated, Final
 
 import numpy as np
 
-from ....errors import SpecError
 from ....execution.fault import Failing, Fault
 from ....execution.faulty_plants import FaultyBody
 from ....execution.log_scene import LoggedScene
@@ -30,7 +29,7 @@ from ..execution.climb_scene import climb_scene
 from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
 from ..execution.executable_plan import climbable, lay_course
-from ..planning.task import LimbedTask
+from ..planning.task import LimbedTask, limbed
 from ..robot.robot import LimbedRobot
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, terrain_covariance, true_places
 from .plants import climbing_plant, drawn_plant, truth_of
@@ -121,9 +120,7 @@ def climbing_task(task: Task) -> LimbedTask:
     Raises:
         SpecError: If it is none of a limbed climber.
     """
-    if not isinstance(task, LimbedTask):
-        raise SpecError(f"task '{task.name}'", "robot.family", "walker", "must be 'limbed': only climbers can be run")
-    return climbable(task)
+    return climbable(limbed(task, f"task '{task.name}'"))
 
 
 def climbing_flaws(task: LimbedTask, settings: Sequence[str], seed: int | None = None) -> LimbFlaws:
