@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from clamber.families.spatial.dynamics import DYNAMICS
+from clamber.errors import SpecError
+from clamber.families.spatial.dynamics import DYNAMICS, careful
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
@@ -11,10 +12,12 @@ from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
+from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problems import plan_family
 from clamber.tasks.library import load_task
+from clamber.trials.dynamics import RunEvents, RunRequest
 from clamber.types import Floats
 
 
@@ -106,3 +109,13 @@ def test_what_fails_to_attach_is_tried_again() -> None:
 def test_plans_that_are_refused_move_nothing() -> None:
     task, plan = first_steps("wall-gripper")
     assert DYNAMICS.objection(task, plan) is None
+
+
+def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_the_same() -> None:
+    task = load_task("patch-gripper", ["payload.mass=3 kg", "goal={ along_min = '0.03 m' }"])
+    with pytest.raises(SpecError, match="violate 'equilibrium'"):
+        plan_task(careful(task), "auto")
+    notes: list[str] = []
+    plan = DYNAMICS.plan(task, RunRequest(), RunEvents(note=notes.append))
+    assert len(plan.actions) == 1
+    assert notes == ["no plan keeps 15 % of all strengths in reserve; one with less is looked for"]

@@ -1,6 +1,7 @@
 """Plans of robots in space in contact dynamics: one, and many under model error."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -139,14 +140,18 @@ def careful(task: SpatialTask) -> SpatialTask:
 
 def _found(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
     """A plan with more in reserve than the task asks for; where there is none, one as the task asks for."""
-    for tried in (careful(task), task):
-        result = plan_task(tried, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
-        if result.has_plan:
-            return result.plan
-        if tried.rules.need > task.rules.need:
-            events.note(
-                f"no plan keeps {100 * tried.rules.need:.0f} % of all strengths in reserve; one with less is looked for"
+    careful_one = careful(task)
+    if careful_one.rules.need > task.rules.need:
+        with suppress(SpecError):  # the start itself has less in reserve
+            result = plan_task(
+                careful_one, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search
             )
+            if result.has_plan:
+                return result.plan
+        events.note(f"no plan keeps {100 * RESERVE:.0f} % of all strengths in reserve; one with less is looked for")
+    result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+    if result.has_plan:
+        return result.plan
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
 
 
@@ -157,7 +162,7 @@ def _replanner(asked: RunRequest, events: RunEvents) -> Replan:
         events.note("planning again from where the robot is, as a hold cannot be had")
         try:
             return _found(task, asked, events, asked.seed)
-        except NoPlanError:
+        except (NoPlanError, SpecError):  # none, or where it stands now breaks a rule of its plans
             return None
 
     return replan
