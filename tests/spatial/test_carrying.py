@@ -1,22 +1,26 @@
 """Plans of robots in space carried out: contact dynamics, holds that come off, holds that are not there."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from clamber.errors import SpecError
 from clamber.families.spatial.dynamics import DYNAMICS, careful
-from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab
+from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
+from clamber.families.spatial.sim.spatial_model import LINKS
+from clamber.families.spatial.sim.spatial_plant import SpatialSim
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problems import plan_family
-from clamber.tasks.library import load_task
+from clamber.tasks.library import load_task, task_names
 from clamber.trials.dynamics import RunEvents, RunRequest
 from clamber.types import Floats
 
@@ -119,3 +123,35 @@ def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_t
     plan = DYNAMICS.plan(task, RunRequest(), RunEvents(note=notes.append))
     assert len(plan.actions) == 1
     assert notes == ["no plan keeps 15 % of all strengths in reserve; one with less is looked for"]
+
+
+def links_that_touch(task: SpatialTask, stance: Standing) -> int:
+    """Contacts of links with solids, by the plant's own colliders, where its tips are put on their holds."""
+    plant = SpatialSim(task.robot, task.world)
+    plant.reset(stance.pose, stance.joints, stance.holds)
+    model, data = plant.model, plant._data
+    pairs = [(model.geom(contact.geom1), model.geom(contact.geom2)) for contact in data.contact[: data.ncon]]
+    return sum(any(int(geom.contype[0]) == LINKS for geom in pair) for pair in pairs)
+
+
+WALLS = (("solids", "at"), ("patterns", "on.at"))
+"""Where a world's file says where a wall and its holds are."""
+
+
+@pytest.mark.parametrize("name", task_names("spatial"))
+def test_no_link_touches_a_solid_where_a_task_starts(name: str) -> None:
+    task = load_task(name)
+    assert isinstance(task, SpatialTask)
+    assert links_that_touch(task, Course.of(task, Plan.of_codes(task, [])).start) == 0
+
+
+def test_a_shin_along_a_wall_is_seen_by_the_planner_as_it_is_by_the_plant() -> None:
+    """In a chimney of 0.44 m the hexapod's shins lie on the walls that its feet press."""
+    narrow = [
+        f"world.{part}.{k}.{at}=['0 m', '{side} m', '0 m']" for k, side in ((0, 0.22), (1, -0.22)) for part, at in WALLS
+    ]
+    with pytest.raises(SpecError, match="violate 'clearance'"):
+        plan_family(load_task("chimney-hexapod", narrow)).problem(load_task("chimney-hexapod", narrow))
+    loose: Any = load_task("chimney-hexapod", [*narrow, "rules.hard=['reach', 'joint', 'equilibrium', 'torque']"])
+    course = Course.of(loose, Plan.of_codes(loose, []))
+    assert links_that_touch(loose, course.start) > 0

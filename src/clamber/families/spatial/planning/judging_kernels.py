@@ -7,7 +7,7 @@ import numpy as np
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
-from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
+from ..statics.records import BODY, CLEAR, CONTACT, JOINTS, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
 from ..statics.stance_kernels import (
     aim_limb,
     judge,
@@ -139,8 +139,8 @@ def know_postures(p, s, out):
 def solids_gap(p, s, judged):
     """Least distance of links and of the base's corners from solids, less the clearance asked for [m].
 
-    Of each link its ends and `BETWEEN` places in between are looked at; of the last one, which touches a solid with its tip, the half
-    that is nearer to the joint; first links lie beside the base.
+    Of each link its ends and `BETWEEN` places in between are looked at; of the last one, which touches a solid with its tip, what is more
+    than `CLEAR` radii from that, as the plant's colliders are; first links lie beside the base.
     """
     if p.n_solids == 0:
         return UNLIMITED
@@ -153,11 +153,14 @@ def solids_gap(p, s, judged):
             x, y, z = to[0] - at[0], to[1] - at[1], to[2] - at[2]
             near = terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k]
             gap = min(gap, near)
-            part = 1.0 if k + 1 < robot.n_joints[i] else 0.5
-            if near - part * math.sqrt(x * x + y * y + z * z) > gap:
+            length = math.sqrt(x * x + y * y + z * z)
+            part, places = 1.0, BETWEEN + 1
+            if k + 1 == robot.n_joints[i]:
+                part, places = max(0.0, 1.0 - CLEAR * robot.radius[i, k] / max(length, TOLERANCE)), BETWEEN
+            if near - part * length > gap:
                 continue
             for step in range(1, BETWEEN + 1):
-                share = part * step / (BETWEEN + 1)
+                share = part * step / places
                 away = terrain_distance(solids, at[0] + share * x, at[1] + share * y, at[2] + share * z)
                 gap = min(gap, away - robot.radius[i, k])
     for corner in range(8):

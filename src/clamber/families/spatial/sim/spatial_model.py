@@ -19,6 +19,7 @@ from ....types import Floats
 from ..robot.contacts import Strength
 from ..robot.parts import Part, parts_of
 from ..robot.robot import SpatialRobot
+from ..statics.records import CLEAR
 from ..world.solids import BAR, BOX, CYLINDER, PLANE, TUBE, frame_about
 from ..world.world import World
 from .spatial_flaws import Deviations, SpatialFlaws
@@ -29,8 +30,6 @@ TIP: Final = 0.002
 """Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it."""
 THICK: Final = 0.01
 """Half the thickness of a hold's patch [m]."""
-CLEAR: Final = 3.0
-"""The last link's shapes keep so many of their radii away from the tip, which touches for them [-]."""
 THIN: Final = 1e-4
 """Shapes that are thinner touch nothing [m]."""
 SIDES: Final = 48

@@ -12,6 +12,8 @@ LIMBS = 8
 """Limb slots; a robot uses the first n."""
 JOINTS = 7
 """Joint slots of a limb."""
+CLEAR = 3.0
+"""The last link of a limb keeps away from solids but for so many of its radii about the tip, which touches for it [-]."""
 UNKNOWNS = 6 * LIMBS
 """Components of wrench of all contacts at most."""
 PROGRAMME_ROWS = LIMBS * (MOST_ROWS + 2 * JOINTS)
