@@ -109,5 +109,5 @@ def test_only_grabs_are_steadied(found: tuple[LimbedTask, Plan]) -> None:
 def test_a_walker_has_no_grabs_to_steady() -> None:
     result = find_planner("greedy")(load_task("patch-walk"), seconds=120.0)
     assert result.has_plan
-    with pytest.raises(SpecError, match="only climbers"):
+    with pytest.raises(SpecError, match="must be a limbed climber"):
         steadied_result(result, 1)
