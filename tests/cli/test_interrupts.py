@@ -34,9 +34,9 @@ LATEST = 12.0
 LONG = (
     "plan h --planner genetic --evaluations 1000000",
     "plan circle --planner exact --stances 20000000",
-    "plan circle --planner hybrid",
+    "plan circle --planner hybrid --stances 20000000",
     "plan circle --planner mcts",
-    "plan ladder --to-run",
+    "plan h --to-run",
     "shorten examples/across/plan.json",
     "learn circle",
     "run circle",
