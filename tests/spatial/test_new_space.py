@@ -1,5 +1,6 @@
 """`clamber new world` and `clamber new task` for robots in space: files that build, starts that hold, and mistakes that are named."""
 
+import copy
 import json
 import math
 from collections.abc import Callable
@@ -12,6 +13,7 @@ import pytest
 from clamber.errors import SpecError
 from clamber.families.spatial.planning.first_task import first_task, fit_named
 from clamber.families.spatial.planning.problem import SpatialProblem
+from clamber.families.spatial.robot import contact_files
 from clamber.families.spatial.world.made import Fit, Kind, Wanted, world_data
 from clamber.families.spatial.world.world import World, build_world
 from clamber.files import Document
@@ -162,6 +164,17 @@ def test_a_limbs_contact_and_its_numbers_are_set_and_kept() -> None:
         load_task("wall-gripper", ["limb.LF.contact=glue"])
     with pytest.raises(SpecError, match=r"contacts\.gripper\.pull=-2 N: pull = .* must be more than 0 N"):
         load_task("wall-gripper", ["contacts.gripper.pull=-2 N"])
+
+
+def test_a_stored_task_has_no_say_in_which_files_are_read(tmp_path: Path) -> None:
+    file = tmp_path / "mine.toml"
+    file.write_text((Path(contact_files.__file__).parent.parent / "data/contacts/magnet.toml").read_text())
+    task: Any = load_task("wall-gripper", [f"limb.LF.contact={file}"])
+    assert task_from_document(task.document).robot.ends[0].kind == "magnet"
+    document = copy.deepcopy(task.document)
+    del document["robot"]["contacts"][str(file)]
+    with pytest.raises(SpecError, match=r"limb\.0\.contact = .* must be one of 'contacts', or come with Clamber"):
+        task_from_document(document)
 
 
 def test_lists_tell_of_worlds_and_of_the_family_of_every_task(clamber: Run) -> None:

@@ -195,9 +195,8 @@ def build_task(document: Document) -> SpatialTask:
     """
     check_schema(document, SCHEMA)
     parts = parts_of(document, "world")
-    parts["robot"] = carrier = whole_document(
-        parts["robot"]
-    )  # its limbs may have been given other contacts than its file's
+    # its limbs may have been given other contacts than its file's
+    parts["robot"] = carrier = whole_document(parts["robot"])
     document = replace(document, data=document.data | {"robot": carrier.data})
     stated = build_spec(SpatialTaskSpec, document, without=("schema", *parts, "labels"))
     check_angle(stated.step.angle, document)

@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Final
 
-from ....errors import UnknownNameError
+from ....errors import UnknownNameError, describe_choices
 from ....files import Document, data_names, find_data, read_toml
 from ....types import Json
 
@@ -29,6 +29,8 @@ def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
 def stated_contacts(document: Document) -> Json:
     """Documents of the contacts that a robot's limbs name, by these names; of one that the document states itself, that.
 
+    A stored document has no say in which files are read: what it does not state itself must come with Clamber.
+
     Raises:
         SpecError: If there is no such contact.
         FileError: If a file can't be read.
@@ -38,6 +40,9 @@ def stated_contacts(document: Document) -> Json:
     for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
         named = limb.get("contact") if isinstance(limb, dict) else None
         if isinstance(named, str) and named not in found:
+            if "contacts" in document.data and not document.overrides and named not in contact_names():
+                allowed = f"must be one of 'contacts', or come with Clamber: {describe_choices(named, contact_names())}"
+                raise document.problem(f"limb.{k}.contact", allowed)
             try:
                 found[named] = read_contact(named, document.folder).data
             except UnknownNameError as error:
