@@ -1,15 +1,23 @@
 """Plans of robots in space carried out: contact dynamics, holds that come off, holds that are not there."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
+from clamber.families.spatial.control.believed_tree import believed_tree
 from clamber.families.spatial.dynamics import DYNAMICS, careful
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
+from clamber.families.spatial.execution.estimated_base import EstimatedBase
+from clamber.families.spatial.execution.limbed_body import LimbedBody
+from clamber.families.spatial.execution.motions import rest
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
+from clamber.families.spatial.execution.settings import Pace
+from clamber.families.spatial.planning.swing_loads import SwingLoads
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
@@ -100,6 +108,59 @@ def test_a_robot_carries_its_first_steps_out(name: str) -> None:
     again = RunTrace.from_log(run.trace.to_log())
     assert again.report == run.trace.report
     assert np.array_equal(again.true_pose, run.trace.true_pose)  # type: ignore[arg-type]
+
+
+def standing_body(task: SpatialTask, start: Standing) -> LimbedBody:
+    """A robot that stands at rest, as it would at the start of a run."""
+    plant = SpatialSim(task.robot, task.world, SpatialFlaws())
+    belief = EstimatedBase(task.robot, task.world, believed_tree(task.robot, task.world.gravity), plant.period)
+    body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
+    body.start(start)
+    return body
+
+
+FOOTED = ("stones-quadruped", "chimney-hexapod")
+"""Tasks of robots whose feet hold by friction alone."""
+
+
+def without_load(name: str) -> tuple[SpatialTask, Standing, int]:
+    """Where a robot of feet stands at the start, its load shared by all but one, and which that is."""
+    task, plan = first_steps(name, grabs=0)
+    stance = plan_family(task).problem(task).replay(plan.codes(task), go_on=True).stances[0]
+    shares = SwingLoads(task)
+    for limb in range(len(task.robot.limb_names)):
+        loads = shares.wrenches(stance, limb)
+        if np.isfinite(loads).all():
+            return task, replace(Course.of(task, plan).start, loads=loads), limb
+    raise AssertionError(f"{name} needs all of its feet at the start")
+
+
+@pytest.mark.parametrize("name", FOOTED)
+def test_a_foot_that_is_to_bear_nothing_stays_on_its_hold(name: str) -> None:
+    """However the plan shares the load: a foot at zero would leave its hold as soon as anything gives way."""
+    task, start, _ = without_load(name)
+    body = standing_body(task, start)
+    rest(body, 1.0)
+    felt = np.linalg.norm(body.sensed.wrenches[:, :3], axis=1)
+    assert felt.min() > body.pace.touch
+
+
+@pytest.mark.parametrize("name", FOOTED)
+def test_a_foot_that_is_off_its_hold_finds_it_again(name: str) -> None:
+    task, start, limb = without_load(name)
+    body = standing_body(task, start)
+    first, end = body.joints_of(limb)
+    normal = task.world.normals[int(start.holds[limb])]
+    along = normal @ body.law.dynamics.jacobian[limb, :3, FREE + first : FREE + end]
+    bent = start.joints.copy()
+    bent[first:end] += 0.1 * body.pace.depth * along / (along @ along)
+    body = standing_body(task, replace(start, joints=bent))
+    assert float(np.linalg.norm(body.plant.sense().wrenches[limb, :3])) < body.pace.touch
+    rest(body, 1.0)
+    truth = body.plant.truth()
+    assert truth is not None
+    assert float(truth.wrenches[limb, :3] @ normal) > body.pace.touch
+    assert (body.holds == start.holds).all()
 
 
 @pytest.mark.slow

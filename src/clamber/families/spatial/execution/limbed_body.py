@@ -22,6 +22,8 @@ from .settings import Pace
 
 OPEN: Final = 3
 """Ticks after which a switch is believed that says that an end effector has come off."""
+LIFTED: Final = 0.1
+"""A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
 
@@ -78,7 +80,8 @@ class LimbedBody:
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
-        self._pressed, self._normal, self._push = -1, np.zeros(3), 0.0
+        self._pressed, self._push = np.zeros((limbs, 3)), np.zeros(limbs)
+        self._sought = np.full(limbs, math.nan)
         self._bears = [end.bears() for end in robot.ends]
         self._pushing = np.array([not self.attaches(limb) for limb in range(limbs)])
 
@@ -118,7 +121,8 @@ class LimbedBody:
 
     def hold_on(self, limb: int, hold: int) -> None:
         """From now on a limb holds on to a hold where its tip is."""
-        self._pressed, self._open[limb] = -1, 0
+        self.relax(limb)
+        self._open[limb], self._sought[limb] = 0, math.nan
         aims, dynamics = self.law.aims, self.law.dynamics
         contact, patch = self.robot.contacts[limb], self.world.holds[hold]
         normal = self.world.normals[hold]
@@ -143,7 +147,7 @@ class LimbedBody:
     def let_go(self, limb: int) -> None:
         """From now on a limb bears nothing."""
         self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
-        self.loads[limb] = 0.0
+        self.loads[limb], self._sought[limb] = 0.0, math.nan
 
     def swing(self, limb: int, path: tuple[Floats, Floats, Floats], points: Floats | None) -> None:
         """Where a limb's tip is to be, with velocity and acceleration, and which way its end effector is to point."""
@@ -153,14 +157,18 @@ class LimbedBody:
         aims.points[limb] = 0.0 if points is None else points
 
     def press(self, limb: int, normal: Floats, force: float = 0.0) -> None:
-        """From now on a swinging limb presses against a surface, until it holds on or lets be (limb -1).
+        """From now on a swinging limb presses against a surface, until it holds on or is to relax.
 
         Args:
             limb: Which.
             normal: Of the surface.
             force: With which it presses, besides what it misses of its aim makes [N].
         """
-        self._pressed, self._normal, self._push = limb, normal, force
+        self._pressed[limb], self._push[limb] = normal, force
+
+    def relax(self, limb: int) -> None:
+        """From now on a limb presses against nothing."""
+        self._pressed[limb] = self._push[limb] = 0.0
 
     def tick(self) -> None:
         """Let a control period pass.
@@ -176,13 +184,10 @@ class LimbedBody:
         for limb in np.flatnonzero(aims.does == HOLDS).tolist():
             aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
             aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
-        torques = law.tick()
-        if self._pressed >= 0:  # what the tip misses of its aim, as a spring would press: its own inertia is too little
-            limb, normal, stiffness = self._pressed, self._normal, self.pace.pressing
-            force = self._push + stiffness * max(0.0, float((law.dynamics.tip[limb] - aims.tip[limb]) @ normal))
-            torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
-            np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
-        self.plant.actuate(torques)
+            if self._stands(limb):  # a foot that bears next to nothing lifts off as soon as anything gives way
+                aims.wrench[limb, 0] = max(aims.wrench[limb, 0], self.pace.stand)
+        self._press(law.tick())
+        self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
         if self.told is not None:
@@ -192,17 +197,58 @@ class LimbedBody:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
         self._feel_holds()
 
+    def _press(self, torques: Floats) -> None:
+        """What pressing limbs miss of their aims, as springs would press: their own inertia is too little."""
+        law, stiffness = self.law, self.pace.pressing
+        for limb in np.flatnonzero(self._pressed.any(axis=1)).tolist():
+            normal = self._pressed[limb]
+            force = self._push[limb] + stiffness * max(
+                0.0, float((law.dynamics.tip[limb] - law.aims.tip[limb]) @ normal)
+            )
+            torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
+            np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
+
+    def _stands(self, limb: int) -> bool:
+        """Whether a limb stands on its hold by friction alone, and is to go on doing so."""
+        return bool(self._pushing[limb]) and math.isinf(float(self.law.aims.cap[limb]))
+
     def _feel_holds(self) -> None:
-        """Notice what has come off."""
+        """Notice what has come off, and have feet that were lifted off their holds find them again."""
         for limb, hold in enumerate(self.holds.tolist()):
-            if hold < 0 or not self.attaches(limb) or self.sensed.closed[limb]:
+            if hold < 0 or (self._pushing[limb] and not self._stands(limb)):
                 self._open[limb] = 0
                 continue
-            self._open[limb] += 1
-            if self._open[limb] == OPEN:
+            felt = self.sensed.closed[limb] if self.attaches(limb) else self._feels(limb)
+            if not math.isnan(self._sought[limb]):
+                self._seek(limb, hold, bool(felt))
+                continue
+            self._open[limb] = 0 if felt else self._open[limb] + 1
+            if self.attaches(limb) and self._open[limb] == OPEN:
                 self._open[limb] = 0
                 self.let_go(limb)
                 raise LostHoldError(limb, hold)
+            if self._open[limb] * self.plant.period > LIFTED * self.pace.shift:
+                self._sought[limb], self._open[limb] = 0.0, 0
+                self.press(limb, self.world.normals[hold])
+
+    def _feels(self, limb: int) -> bool:
+        """Whether a foot feels what it stands on."""
+        return float(np.linalg.norm(self.sensed.wrenches[limb, :3])) > self.pace.touch
+
+    def _seek(self, limb: int, hold: int, felt: bool) -> None:
+        """Feel on along the inward normal for what a foot stood on."""
+        if felt:
+            self.hold_on(limb, hold)
+            return
+        inward, step = -self.world.normals[hold], self.pace.approach * self.plant.period
+        self._sought[limb] += step
+        if self._sought[limb] > self.pace.depth:
+            self.relax(limb)
+            self.let_go(limb)
+            raise LostHoldError(limb, hold)
+        before = self.law.aims.tip[limb] if self.law.aims.does[limb] == SWINGS else self.tips[limb]
+        pointed = inward if self.robot.contacts[limb].aligned else None
+        self.swing(limb, (before + step * inward, self.pace.approach * inward, np.zeros(3)), pointed)
 
     def stop(self) -> None:
         """From now on the body is to stay where it is."""

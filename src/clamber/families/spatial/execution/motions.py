@@ -183,7 +183,7 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
         if touches(body, limb):
             return True
         if body.sensed.shutting[limb]:  # jaws that draw the tip to its hold have their way
-            body.press(-1, inward)
+            body.relax(limb)
             law = body.law
             drawn = law.dynamics.jacobian[limb, :3] @ law.state.speed
             body.swing(limb, (body.tips[limb].copy(), drawn, np.zeros(3)), pointed)
@@ -199,7 +199,7 @@ def _approach(body: LimbedBody, limb: int, path: TipPath) -> bool:
             deep += eager * body.plant.period * pace.approach
             body.swing(limb, (path.end + deep * inward, eager * speed, np.zeros(3)), pointed)
         body.tick()
-    body.press(-1, inward)
+    body.relax(limb)
     return False
 
 

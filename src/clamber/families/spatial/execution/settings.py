@@ -2,11 +2,14 @@
 
 import math
 from dataclasses import dataclass
-from typing import Self
+from typing import Final, Self
 
 from ....units import GRAVITY
 from ..robot.robot import SpatialRobot
 from ..statics.records import stretched
+
+STAND: Final = 2.0
+"""Force that a foot which stands is asked to press with at least, of that by which it feels that it stands [-]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -25,6 +28,8 @@ class Pace:
     """In which load passes from one set of limbs to another [s]."""
     touch: float
     """A foot that feels such a force stands [N]."""
+    stand: float
+    """A foot that stands is asked to press with so much at least [N]."""
     firm: float
     """An end effector that presses so hard and does not attach has no hold there [N]."""
     beside: float
@@ -57,6 +62,7 @@ class Pace:
             swing=how.swing * agile,
             shift=how.shift * math.sqrt(size / agile),
             touch=how.touch * weight,
+            stand=STAND * how.touch * weight,
             firm=how.firm * weight,
             beside=how.beside * size,
             tries=how.tries,
