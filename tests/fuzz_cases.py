@@ -5,7 +5,7 @@ import os
 import random
 import shutil
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Final
@@ -14,6 +14,8 @@ import numpy as np
 
 import clamber
 from clamber.cli.app import application, command_of, commands_below
+from clamber.planning.genetic.learning import Macro
+from clamber.planning.learning import Lesson
 from spoiling import CELLS, JUNK, spoil_bytes, spoil_data, spoil_store, spoilt, spoilt_table, toml_file
 
 PACKAGE: Final = Path(clamber.__file__).parent
@@ -134,17 +136,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
     (folder / "tool.csv").write_text(
         "x [mm],y [mm],z [mm]\n" + "".join(f"{700 + k},{k},{300 - k}\n" for k in range(20))
     )
-    macro = {
-        "name": "m",
-        "codes": [int(code) for code in codes],
-        "gain": 0.3,
-        "starts": 3,
-        "tried": 12,
-        "seen": 1,
-        "from_start": 4,
-    }
-    lesson = {"schema": "clamber-macros-1", "task": "ladder", "plans": 1, "evaluations": 1, "macros": [macro]}
-    (folder / "macros.json").write_text(json.dumps(lesson))
+    lesson(codes).save(folder / "macros.json")
     run("plan", "ladder", *FEW, "--checkpoint", "checkpoint.json")
     run(*SWEEP)
     run("run", "two.json", "-o", "climb.mcap", "--quiet")
@@ -161,6 +153,12 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
         os.mkfifo(folder / name)
     (folder / "link.json").symlink_to("of-link.json")
     (folder / "circle.json").symlink_to("circle.json")
+
+
+def lesson(codes: Sequence[int]) -> Lesson:
+    """What a climber might have learned, in the form that is read today."""
+    macro = Macro(name="m", codes=tuple(map(int, codes)), gain=0.3, starts=3, tried=12, seen=1, from_start=4)
+    return Lesson(task="ladder", robot="libra", plans=1, evaluations=1, macros=(macro,))
 
 
 def _stood() -> Any:

@@ -20,11 +20,13 @@ from clamber.families.climber.family import CLIMBER
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.world.library import load_board
+from clamber.planning.learning import load_macros
 from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot
+from fuzz_cases import lesson
 from spoiling import spoilt, toml_file
 
 PER_KIND = 500
@@ -128,6 +130,15 @@ def test_what_a_file_must_say_is_missed(kind: str, tmp_path: Path) -> None:
         for key in ("schema", "name"):
             left = {other: value for other, value in data.items() if other != key}
             assert not check(kind, tmp_path / f"{name}-{key}.toml", toml_file(left).encode())
+
+
+def test_the_fuzzed_macros_are_such_as_are_read_and_odd_codes_reach_the_check(tmp_path: Path) -> None:
+    file, task = tmp_path / "macros.json", load_task("ladder")
+    lesson([pack(MOVE, 0, 2), pack(NEAREST, 2, 1)]).save(file)
+    assert len(load_macros(file, task)) == 1
+    lesson([542239545]).save(file)
+    with pytest.raises(SpecError, match="must be the code of an action"):
+        load_macros(file, task)
 
 
 def fuzz(first: int, last: int) -> tuple[list[Any], Any]:

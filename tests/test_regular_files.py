@@ -170,6 +170,17 @@ def test_a_robot_that_a_file_names_is_a_regular_file(clamber: Clamber, odd: dict
         assert code == 2 and str(path) in err and WORDS.get(kind, "cannot be read") in err
 
 
+@pytest.mark.parametrize("kind", ["pipe", "device", "folder"])
+@pytest.mark.parametrize(
+    "words", ["trials ladder-hand -n 1 --store", "sweep ladder --vary step.length=2in..3in:2 --store"]
+)
+def test_a_store_is_a_regular_file(clamber: Clamber, odd: dict[str, Path], words: str, kind: str) -> None:
+    before = odd[kind].lstat()
+    code, out, err = clamber(*words.split(), str(odd[kind]))
+    assert (code, out) == (2, "") and str(odd[kind]) in err and WORDS[kind] in err
+    assert (odd[kind].lstat().st_ino, odd[kind].lstat().st_mode) == (before.st_ino, before.st_mode)
+
+
 def test_keys_with_too_many_parts_are_refused_before_they_are_parsed() -> None:
     deep = ".".join("a" * 20_000)
     hidden = '"""a"""", ' + deep + ' = 1, b = "'

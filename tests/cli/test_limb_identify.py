@@ -1,11 +1,14 @@
 import json
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from clamber.cli import main
+from clamber.execution.log_files import read_log, write_log
 
 
 @pytest.fixture(scope="module")
@@ -82,3 +85,19 @@ def test_a_log_that_tells_nothing_says_what_it_would_need_and_leaves_with_one(cl
     assert code == 1
     assert "inertia: not in this log: needs torque" in text
     assert "backlash: not in this log: needs an angle measured behind the gear" in text
+
+
+@pytest.mark.parametrize("constant", [0.0, 0.3])  # currents and commands are what torques come from
+@pytest.mark.parametrize("word", ["current", "command", "angle"])
+def test_columns_that_never_change_end_in_an_error_or_an_answer(
+    clamber: Any, log: Path, tmp_path: Path, word: str, constant: float
+) -> None:
+    kept = read_log(log)
+    columns = {
+        name: np.full_like(values, constant) if word in name else values for name, values in kept.columns.items()
+    }
+    assert any(word in name for name in columns)
+    write_log(replace(kept, columns=columns), tmp_path / "constant.csv")
+    code, out, err = clamber("limb", "identify", str(tmp_path / "constant.csv"))
+    assert code in (0, 1, 2) and "Traceback" not in err
+    assert (err.startswith("clamber: ") and "constant.csv" in err) if code == 2 else "inertia" in out

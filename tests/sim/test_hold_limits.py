@@ -12,6 +12,7 @@ from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.noise import named_noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.world.board import Board, Hold
+from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.tasks.robots import load_robot
 from clamber.trials.work import open_work
@@ -116,3 +117,18 @@ def test_a_climb_on_a_hold_that_is_too_weak_ends_with_its_cause() -> None:
     assert run.to_json()["broken"][0]["hold"] == grabbed
     assert run.trace.notes is not None
     assert run.trace.notes["broken"][0]["hold"] == grabbed
+
+
+@pytest.mark.parametrize(("direction", "breaks"), [(90.0, True), (-90.0, False)])
+def test_a_hold_gives_way_to_a_hook_that_pulls_outside_its_direction(direction: float, breaks: bool) -> None:
+    """A hook has no jaws: what it pulls is the sum of its contacts, which is downwards and to a side on a ladder."""
+    work = open_work("ladder-hand")
+    task, plan = climbing_task(work.item), work.plan
+    assert plan is not None
+    grabbed = next(action.hold for action in plan.actions if action.hold is not None)
+    limits = {"direction": math.radians(direction), "cone": math.radians(80.0)}
+    holds = tuple(replace(hold, **limits) if hold.number == grabbed else hold for hold in task.world.holds)
+    odd = replace(task, world=replace(task.world, holds=holds))
+    few = Plan.of_codes(odd, plan.codes(odd, "plan")[:3])
+    run = run_plan(odd, few, climbing_flaws(odd, ()), noise=named_noise("none"), force=True)
+    assert [(told.hold, "from its direction" in told.why) for told in run.report.broken] == [(grabbed, True)] * breaks

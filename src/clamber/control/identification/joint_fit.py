@@ -238,7 +238,7 @@ def fit_joint(samples: JointSamples, motion: Motion, torque: Floats, links: Link
     best: tuple[float, Rows, Floats, Floats, float, list[int]] | None = None
     for width in WIDTHS:
         rows = rows_of(samples, motion, torque, links, width)
-        if rows is None or rows.centres.size < LEAST_ROWS:
+        if rows is None or rows.centres.size < LEAST_ROWS or not torque.any():  # what no motor moves tells nothing
             continue
         columns = _columns(rows)
         first = _first_lag(rows, columns, samples.period)

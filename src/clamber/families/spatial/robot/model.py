@@ -5,20 +5,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, Final
-from xml.etree import ElementTree
 
 import numpy as np
 
 from ....errors import FileError
-from ....files import content_hash, read_text
+from ....files import content_hash
 from ....regular_files import read_bytes
 from .bodies import is_of_a_body, rotation, shape_points, symmetric
+from .model_files import MOST_MODEL, check_named, parse_model
 from .notes import Notes, span
 from .tree import Joint, Link, Shape, Site, Tree, matrix, vector
 from .urdf import JointFacts, Urdf, prepare
 
-MOST_MODEL: Final = 8 * 1024 * 1024
-"""Largest model file that is read [bytes]."""
 NO_MASS: Final = 1e-12
 """MuJoCo takes no moving link of less [kg], so links without mass get this and are read back as massless; also the inertia [kg m^2]."""
 BULKY: Final = 4.0
@@ -49,17 +47,14 @@ def read_model(path: Path) -> Model:
     Raises:
         FileError: If it can't be read, or is not physical.
     """
-    text = read_text(path, MOST_MODEL)
-    try:
-        root = ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        raise FileError(str(path), f"is not valid XML: {error}", "name a URDF or MJCF file") from None
+    root = parse_model(path)
     notes = Notes()
     if root.tag == "robot":
         urdf = prepare(root, path, notes)
         spec = _urdf_spec(urdf, path)
         facts, held = urdf.joints, {name: facts.held for name, facts in urdf.joints.items()}
     elif root.tag == "mujoco":
+        check_named(root, path)
         spec = _mjcf_spec(path, notes)
         facts, held = {}, _coupled(spec, notes)
     else:
@@ -101,12 +96,10 @@ def _mjcf_spec(path: Path, notes: Notes) -> Any:
         return bool(file) and not any((path.parent / place / file).is_file() for place in (named, ""))
 
     _drop_meshes(spec, {mesh.name for mesh in spec.meshes if gone(mesh.file, spec.meshdir)}, notes, "is missing")
-    for texture in list(spec.textures):
-        if any(gone(file, spec.texturedir) for file in (texture.file, *texture.cubefiles)):
-            for material in spec.materials:
-                if texture.name in material.textures:
-                    material.textures = [""] * len(material.textures)
-            spec.delete(texture)
+    for material in spec.materials:
+        material.textures = [""] * len(material.textures)
+    for looks in [*spec.textures, *spec.skins]:  # pictures of any size, which nothing here shows
+        spec.delete(looks)
     for equality in list(spec.equalities):
         if equality.type in (mj.mjtEq.mjEQ_CONNECT, mj.mjtEq.mjEQ_WELD):
             named = equality.name or f"{equality.name1} to {equality.name2 or 'world'}"

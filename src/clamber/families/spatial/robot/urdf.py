@@ -8,11 +8,10 @@ from typing import Final
 from xml.etree import ElementTree
 
 from ....errors import FileError
-from ....regular_files import read_bytes
+from ....regular_files import is_there, read_bytes
+from .model_files import MOST_MESH, read_named
 from .notes import Notes
 
-MOST_MESH: Final = 64 * 1024 * 1024
-"""Largest mesh file that is read [bytes]."""
 MESHES: Final = (".stl", ".obj")
 """Suffixes of mesh files that MuJoCo reads."""
 MOVING: Final = ("revolute", "continuous", "prismatic")
@@ -144,7 +143,9 @@ def _meshes(root: ElementTree.Element, path: Path, notes: Notes) -> dict[str, by
             if mesh is None:
                 continue
             said = mesh.get("filename", "")
-            file = next((one for one in mesh_files(said, path.parent) if one.is_file()), None)
+            file = next((one for one in mesh_files(said, path.parent) if said and is_there(one)), None)
+            if file is not None and not file.is_file():
+                read_named(path, f"<mesh filename='{said}'> of link {link.get('name')}", file)
             reason = "is missing" if file is None else _unreadable(file)
             if reason is not None or file is None:
                 refused.setdefault(str(reason), []).append(f"{Path(said).name} of link {link.get('name')}")

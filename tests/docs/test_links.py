@@ -1,0 +1,19 @@
+"""Links on pages to files of the repository: the files are there."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+MADE = ("api/",)
+"""Places that the building of the pages fills."""
+LINK = re.compile(r"\]\(([^()\s]+)\)")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+def test_links_to_files_of_the_repository_lead_somewhere(page: Path) -> None:
+    text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    links = [link for link in LINK.findall(text) if not re.match(r"[a-z]+:|#", link) and not link.startswith(MADE)]
+    assert [link for link in links if not (page.parent / link.partition("#")[0]).exists()] == []
