@@ -9,7 +9,7 @@ import pytest
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
-from clamber.families.spatial.dynamics import DYNAMICS, careful
+from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
@@ -20,9 +20,10 @@ from clamber.families.spatial.execution.settings import Pace
 from clamber.families.spatial.planning.swing_loads import SwingLoads
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.bodies import rotation
-from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
+from clamber.families.spatial.sim.spatial_flaws import Deviations, SpatialFlaws
 from clamber.families.spatial.sim.spatial_model import LINKS
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
+from clamber.families.spatial.trials.planning import RESERVES, careful
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
@@ -163,6 +164,17 @@ def test_a_foot_that_is_off_its_hold_finds_it_again(name: str) -> None:
     assert (body.holds == start.holds).all()
 
 
+def test_a_hold_deeper_than_its_wall_is_reached_in_its_recess() -> None:
+    """Magnets attach no further than 1 mm off: 4 mm behind the steel they would never get there."""
+    task, plan = first_steps("corners-magnet", grabs=1)
+    world = task.world
+    sunk = Deviations.none(task.robot, world)
+    sunk = replace(sunk, places=world.places - 0.004 * world.normals)
+    run = run_plan(task, plan, deviations=sunk)
+    assert run.done, run.reason
+    assert not run.broken
+
+
 @pytest.mark.slow
 def test_what_fails_to_attach_is_tried_again() -> None:
     task, plan = first_steps("wall-gripper")
@@ -179,11 +191,14 @@ def test_plans_that_are_refused_move_nothing() -> None:
 def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_the_same() -> None:
     task = load_task("patch-gripper", ["payload.mass=3 kg", "goal={ along_min = '0.03 m' }"])
     with pytest.raises(SpecError, match="violate 'equilibrium'"):
-        plan_task(careful(task), "auto")
+        plan_task(careful(task, min(RESERVES)), "auto")
     notes: list[str] = []
     plan = DYNAMICS.plan(task, RunRequest(), RunEvents(note=notes.append))
     assert len(plan.actions) == 1
-    assert notes == ["no plan keeps 15 % of all strengths in reserve; one with less is looked for"]
+    assert notes == [
+        f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for"
+        for reserve in RESERVES
+    ]
 
 
 def links_that_touch(task: SpatialTask, stance: Standing) -> int:

@@ -15,7 +15,7 @@ from ..world.solids import frame_about
 from ..world.world import World
 from .end_kernels import END, FORMS, WORDS, feel_ends, nearest_holds
 from .spatial_flaws import Deviations, SpatialFlaws
-from .spatial_model import THICK, TIP, held_name, patch_name, quaternion, tip_name
+from .spatial_model import ON_SOLIDS, THICK, TIP, held_name, patch_name, quaternion, tip_name
 
 GIVING_WAY: Final = 0.02
 """An end effector comes off after that long above its strength; shorter knocks, as when it lands, break nothing [s]."""
@@ -56,6 +56,8 @@ class Ends:
         names = robot.limb_names
         n = len(names)
         self._places, self._normals = deviations.places, deviations.normals
+        sunk = np.einsum("ij,ij->i", deviations.places - world.places, world.normals)
+        self._recessed = sunk < 0.0
         self._own_radii = np.array([hold.radius for hold in world.holds])
         self._radii = self._own_radii.copy()
         inf = math.inf
@@ -152,6 +154,8 @@ class Ends:
         for limb, hold in enumerate(self._nearest.tolist()):
             if hold != self._under[limb]:
                 self._put_beneath(limb, hold)
+            if self._capture[limb] and self._ends["hold"][limb] < 0:
+                self._open_recess(limb, hold)
             if (
                 self._wanted[limb]
                 and not self._spent[limb]
@@ -197,14 +201,24 @@ class Ends:
         if hold < 0:
             self._data.mocap_pos[mocap] = (FAR, FAR, FAR)
             return
-        reach = self._capture[limb] + math.hypot(*self._strengths[limb].halves)
-        radius, normal = self._own_radii[hold] + reach, self._normals[hold]
+        radius, normal = self._own_radii[hold] + self._reach(limb), self._normals[hold]
         self._model.geom_size[geom, 0] = radius
         self._model.geom_rbound[geom] = math.hypot(radius, THICK)
         self._model.geom_aabb[geom, 3:] = radius, radius, THICK
         self._model.geom_friction[geom, 0] = max(self._friction(limb, hold), 1e-5)
         self._data.mocap_pos[mocap] = self._places[hold] - (TIP + THICK) * normal
         self._data.mocap_quat[mocap] = quaternion(self._mujoco, frame_about(normal).T)
+
+    def _reach(self, limb: int) -> float:
+        """How far beside a hold an end effector may be that attaches to it [m]."""
+        return float(self._capture[limb]) + math.hypot(*self._strengths[limb].halves)
+
+    def _open_recess(self, limb: int, hold: int) -> None:
+        """A hold that lies deeper than was believed is the bottom of a recess, into which what attaches there can come."""
+        within = hold >= 0 and bool(self._recessed[hold]) and self._gaps[limb] <= self._reach(limb)
+        patch = self._bits[limb] & ((1 << ON_SOLIDS) - 1)
+        for ball in self._balls[limb]:
+            self._model.geom_contype[ball] = patch if within else self._bits[limb]
 
     def _attach(self, limb: int, hold: int) -> None:
         data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]

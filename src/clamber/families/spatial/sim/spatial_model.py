@@ -25,7 +25,9 @@ from ..world.world import World
 from .spatial_flaws import Deviations, SpatialFlaws
 
 LINKS: Final = 1 << 16
-"""Bit of what links touch, solids; each tip has its own, by its limb's number, for its patch and for solids."""
+"""Bit of what links touch, solids ..."""
+ON_SOLIDS: Final = 8
+"""... each tip has one for its patch, by its limb's number, and one that is so much higher for solids."""
 TIP: Final = 0.002
 """Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it."""
 THICK: Final = 0.01
@@ -70,7 +72,7 @@ def spatial_spec(robot: SpatialRobot, true: TrueWorld, flaws: SpatialFlaws) -> A
     option.gravity = true.world.gravity
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     strengths = [end.bears() for end in robot.ends]
-    _add_solids(mujoco, spec, true.world, (1 << len(strengths)) - 1)
+    _add_solids(mujoco, spec, true.world, ((1 << len(strengths)) - 1) << ON_SOLIDS)
     _add_robot(mujoco, spec, robot, strengths, true.deviations, flaws)
     return spec
 
@@ -201,7 +203,9 @@ def _add_tip(mujoco: Any, spec: Any, hand: Any, limb: str, strength: Strength, b
     hand.add_site(name=name)
     for kind in (mujoco.mjtSensor.mjSENS_FORCE, mujoco.mjtSensor.mjSENS_TORQUE):
         spec.add_sensor(type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
-    bits = {"contype": bit, "conaffinity": 0, "mass": 0.0, "priority": 1} | _contact(strength.friction)
+    bits = {"contype": bit | bit << ON_SOLIDS, "conaffinity": 0, "mass": 0.0, "priority": 1} | _contact(
+        strength.friction
+    )
     a, b = strength.halves if strength.moments else (0.0, 0.0)
     corners = [(a, b), (a, -b), (-a, b), (-a, -b)] if a or b else [(0.0, 0.0)]
     for x, y in corners:
