@@ -1,7 +1,6 @@
 """Plans of robots in space in contact dynamics: one, and many under model error."""
 
 from collections.abc import Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -9,13 +8,12 @@ from typing import TYPE_CHECKING, Annotated, Final
 from ...errors import SpecError
 from ...family import NotOfFamilyError, family_of
 from ...json_form import INLINE
-from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
-from .execution.carrying import Replan
+from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
+from .trials.planning import found_plan, replanner
 from .trials.run_plan import SpatialRun, run_plan
 from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 
@@ -40,10 +38,6 @@ class ReplayedRun:
     trial: SpatialTrial
 
 
-RESERVE: Final = 0.15
-"""Of all strengths and torques that plans keep which are made to be carried out [-]: friction and strength a fifth less take so much."""
-
-
 class SpatialDynamics(Dynamics):
     """Climbs and walks of robots in space."""
 
@@ -59,7 +53,7 @@ class SpatialDynamics(Dynamics):
 
     def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with more in reserve than the checks ask for."""
-        return _found(task, asked, events, asked.seed)
+        return found_plan(task, asked, events, asked.seed)
 
     def run(
         self, work: SpatialTask, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan"
@@ -78,7 +72,7 @@ class SpatialDynamics(Dynamics):
             deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
             progress=told,
             log=asked.log,
-            replan=_replanner(asked, events) if asked.replan else None,
+            replan=replanner(asked, events, asked.seed),
             label=label,
         )
 
@@ -87,7 +81,7 @@ class SpatialDynamics(Dynamics):
     ) -> Plan:
         """The plan if nothing speaks against it, or the one that is found, and told."""
         if plan is None:
-            plan = _found(task, asked, events, seed)
+            plan = found_plan(task, asked, events, seed)
             events.planned(plan)
         elif not asked.force and (against := self.objection(task, plan, label)) is not None:
             raise SpecError(label, "actions", against, "nothing has moved")
@@ -115,7 +109,14 @@ class SpatialDynamics(Dynamics):
         label: str = "plan",
     ) -> SpatialSetup:
         """What all runs have in common."""
-        setup = SpatialSetup(task=work, noise=_noise(asked), plant=tuple(asked.plant), plan=plan, planned=plan is None)
+        setup = SpatialSetup(
+            task=work,
+            noise=_noise(asked),
+            plant=tuple(asked.plant),
+            plan=plan,
+            planned=plan is None,
+            search=Conditions(planner=asked.planner, plan_seconds=asked.plan_seconds, replan=asked.replan),
+        )
         return replace(setup, plan=self._fit(work, plan or setup.stored_plan(store), asked, events, 0, label))
 
     def trials_json(self, trials: SpatialTrials, held_out: bool) -> TrialedRuns:
@@ -131,41 +132,6 @@ class SpatialDynamics(Dynamics):
         from .pictures.trials_text import print_spatial_trials
 
         print_spatial_trials(console, trials, seeds)
-
-
-def careful(task: SpatialTask) -> SpatialTask:
-    """The task with more in reserve, so that its plans can be carried out where holds, masses and motors are not as believed."""
-    return replace(task, rules=replace(task.rules, need=max(task.rules.need, RESERVE)))
-
-
-def _found(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-    """A plan with more in reserve than the task asks for; where there is none, one as the task asks for."""
-    careful_one = careful(task)
-    if careful_one.rules.need > task.rules.need:
-        with suppress(SpecError):  # the start itself has less in reserve
-            result = plan_task(
-                careful_one, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search
-            )
-            if result.has_plan:
-                return result.plan
-        events.note(f"no plan keeps {100 * RESERVE:.0f} % of all strengths in reserve; one with less is looked for")
-    result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
-    if result.has_plan:
-        return result.plan
-    raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
-
-
-def _replanner(asked: RunRequest, events: RunEvents) -> Replan:
-    """What a run asks for another plan."""
-
-    def replan(task: SpatialTask) -> Plan | None:
-        events.note("planning again from where the robot is, as a hold cannot be had")
-        try:
-            return _found(task, asked, events, asked.seed)
-        except (NoPlanError, SpecError):  # none, or where it stands now breaks a rule of its plans
-            return None
-
-    return replan
 
 
 def _noise(asked: Conditions) -> SpatialNoise:

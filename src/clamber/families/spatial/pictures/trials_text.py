@@ -15,6 +15,7 @@ ROWS = (
     ("body off its aim, as believed [mm]", "off", 1e-3, 1),
     ("not where it believes to be, at the end [mm]", "lost", 1e-3, 1),
     ("contacts that came off", "breaks", 1.0, 0),
+    ("plans made on the way", "replans", 1.0, 0),
     ("time [s]", "seconds", 1.0, 0),
 )
 

@@ -1,7 +1,7 @@
 """Many runs of one plan of a robot in space, each with its own seed: run over workers, stored as they end, and what they say together."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Final
@@ -12,11 +12,13 @@ from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
+from ....trials.dynamics import Conditions, RunEvents
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
 from .noise import SpatialNoise
+from .planning import replanner
 from .run_plan import SpatialRun, run_plan
 
 ERROR: Final = "error"
@@ -42,6 +44,8 @@ class SpatialTrial(Jsonable):
     """How far the robot was from where it believed to be, at the end [m]; None where that is not known."""
     breaks: Count
     """Contacts that came off."""
+    replans: Count
+    """Plans that were made on the way."""
     wall_seconds: float
     """That it took."""
 
@@ -57,16 +61,18 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
     assert isinstance(task, SpatialTask)
     seed, noise = item["seed"], SpatialNoise(item["noise"])
 
-    def told(action: int, of: int) -> None:
+    def tell(text: str, share: float | None = None) -> None:
         if step is not None:
-            step(f"action {action} of {of}", action / of)
+            step(text, share)
 
+    search = Conditions(**item["search"])
     return run_plan(
         task,
         Plan.from_json(item["plan"] | {"document": item["document"]}),
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
         deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
-        progress=told,
+        progress=lambda action, of: tell(f"action {action} of {of}", action / of),
+        replan=replanner(search, RunEvents(note=tell), seed),
     )
 
 
@@ -85,6 +91,7 @@ def judged(seed: int, run: SpatialRun) -> SpatialTrial:
         off=report.off,
         lost=lost,
         breaks=len(run.broken),
+        replans=len(report.replans),
         wall_seconds=run.wall_seconds,
     )
 
@@ -105,6 +112,8 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     plan: Plan | None = None
     planned: bool = False
     """Whether a planner made the plan, so that it is no part of what was asked for."""
+    search: Conditions = field(default_factory=Conditions)
+    """How plans are searched for on the way."""
     faults: tuple[str, ...] = ()
 
     @property
@@ -137,7 +146,17 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
         return self._plain() | {"plan": self.plan.to_json() | {"document": {}}, "seed": seed}
 
     def _plain(self) -> Json:
-        return {"document": self.task.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        search = {
+            "planner": self.search.planner,
+            "plan_seconds": self.search.plan_seconds,
+            "replan": self.search.replan,
+        }
+        return {
+            "document": self.task.document,
+            "plant": list(self.plant),
+            "noise": self.noise.to_json(),
+            "search": search,
+        }
 
     def begun(self, asked: int) -> "SpatialTrials":
         """No runs yet."""
@@ -158,6 +177,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
             off=0.0,
             lost=None,
             breaks=0,
+            replans=0,
             wall_seconds=0.0,
         )
 
