@@ -13,7 +13,7 @@ from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import rest
+from clamber.families.spatial.execution.motions import SPEED, joint_seconds, rest
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
 from clamber.families.spatial.execution.settings import Pace
@@ -173,6 +173,28 @@ def test_a_hold_deeper_than_its_wall_is_reached_in_its_recess() -> None:
     run = run_plan(task, plan, deviations=sunk)
     assert run.done, run.reason
     assert not run.broken
+
+
+@pytest.mark.parametrize("name", ["wall-gripper", "corners-magnet", "handrails-triped"])
+def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -> None:
+    """Near a singularity and near a joint's limit, too, where a limb that is too quick shakes the body."""
+    task, plan = first_steps(name, grabs=1)
+    course = Course.of(task, plan)
+    motion = next(motion for motion in course.motions if isinstance(motion, Regrab))
+    body, limb = standing_body(task, motion.before), motion.limb
+    limits, mine = body.law.limits, slice(*body.joints_of(limb))
+    normals = task.world.normals[[int(motion.before.holds[limb]), motion.hold]]
+    start, end = body.tips[limb].copy(), task.world.places[motion.hold]
+    seconds = joint_seconds(body, limb, TipPath(start, end, normals, body.lift, 1.0), motion.after.joints)
+    path = TipPath(start, end, normals, body.lift, seconds)
+    times = np.linspace(0.0, seconds, 400)
+    points = np.array([path.at(time)[0] for time in times])
+    joints = body.joints_along(limb, points, motion.after.joints)
+    speeds = np.abs(np.diff(joints, axis=0)) / np.diff(times)[:, None]
+    assert (speeds / limits.speed[mine]).max() < 1.05 * SPEED
+    body.law.state.joints[mine] = joints[-1]
+    body.law.look()
+    assert body.tips[limb] == pytest.approx(end, abs=0.01 * body.pace.size)
 
 
 @pytest.mark.slow

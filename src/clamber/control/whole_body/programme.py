@@ -105,9 +105,9 @@ class Gains:
     arm: float
     """Length that angles and moments are weighed by [m]."""
     base: float = 10.0
-    """Weight of the base's motion [-]."""
+    """Of the base's motion [-]."""
     swing: float = 5.0
-    """Of the tip of a swinging limb [-]."""
+    """Of a swinging tip [-]."""
     holding: float = 50.0
     """Of tips that hold on staying where they are [-]."""
     resting: float = 1.0
@@ -119,7 +119,7 @@ class Gains:
     base_rate: float = 10.0
     """At which errors of the base die away [1/s]."""
     swing_rate: float = 20.0
-    """The same of a swinging tip [1/s]."""
+    """Of a swinging tip [1/s]."""
     posture_rate: float = 5.0
     """The same of a posture [1/s]."""
     rest_rate: float = 20.0

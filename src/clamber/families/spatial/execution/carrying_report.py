@@ -34,7 +34,7 @@ class MotionReport(Jsonable):
 
 @dataclass(frozen=True, slots=True)
 class NewPlan(Jsonable):
-    """A plan that was made on the way."""
+    """A plan made on the way."""
 
     after: Count
     """Motions that had been carried out."""

@@ -66,13 +66,13 @@ class BodyMotion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Regrab:
-    """A limb from its hold to another."""
+    """A limb to another hold."""
 
     first: int
     """Number of the plan's action, from 1."""
     limb: int
     hold: int
-    """Index of the hold that it takes."""
+    """Index of its new hold."""
     before: Standing
     after: Standing
     loads: Floats

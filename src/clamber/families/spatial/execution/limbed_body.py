@@ -8,7 +8,8 @@ import numpy as np
 
 from ....control.whole_body.law import WholeBody
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
-from ....control.whole_body.tree import FREE
+from ....control.whole_body.tree import FREE, Dynamics, State
+from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
@@ -24,6 +25,8 @@ OPEN: Final = 3
 """Ticks after which a switch is believed that says that an end effector has come off."""
 LIFTED: Final = 0.1
 """A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
+SINGULAR: Final = 0.01
+"""A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
 
@@ -82,6 +85,7 @@ class LimbedBody:
         """Called after each tick."""
         self._pressed, self._push = np.zeros((limbs, 3)), np.zeros(limbs)
         self._sought = np.full(limbs, math.nan)
+        self._ahead, self._ahead_work = State.of(tree), Dynamics.of(tree)
         self._bears = [end.bears() for end in robot.ends]
         self._pushing = np.array([not self.attaches(limb) for limb in range(limbs)])
 
@@ -105,7 +109,7 @@ class LimbedBody:
         return self._bears[limb].capture > 0.0
 
     def start(self, at: Standing) -> None:
-        """Put the robot on its holds."""
+        """Put it on its holds."""
         self.plant.reset(at.pose, at.joints, at.holds)
         self.sensed = self.plant.sense()
         self.belief.begin(at.pose, self.sensed)
@@ -148,6 +152,34 @@ class LimbedBody:
         """From now on a limb bears nothing."""
         self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
         self.loads[limb], self._sought[limb] = 0.0, math.nan
+
+    def joints_along(self, limb: int, points: Floats, posture: Floats) -> Floats:
+        """Joints of a limb whose tip goes through points while the base stays where it is to be.
+
+        Where they leave joints free, these go to a posture; what is out of reach is come near to.
+
+        Args:
+            limb: Which; it begins as it is believed to be.
+            points: Of the tip, near each other [m], shape (points, 3).
+            posture: Of all joints at the end, shape (n,).
+
+        Returns:
+            [rad] or [m], shape (points, joints of the limb).
+        """
+        tree, at, work, mine = self.law.tree, self._ahead, self._ahead_work, slice(*self.joints_of(limb))
+        at.rotation[:], at.position[:] = self.law.aims.rotation, self.law.aims.position
+        at.joints[:] = self.law.state.joints
+        started, damping = at.joints[mine].copy(), (SINGULAR * self.pace.size) ** 2
+        found = np.empty((len(points), len(started)))
+        for k, point in enumerate(points):
+            place_bodies(tree, at, work)
+            tip_motion(tree, at, work)
+            jacobian = work.jacobian[limb, :3, FREE:][:, mine]
+            inverse = jacobian.T @ np.linalg.inv(jacobian @ jacobian.T + damping * np.eye(3))
+            lean = started + (k + 1) / len(points) * (posture[mine] - started) - at.joints[mine]
+            at.joints[mine] += inverse @ (point - work.tip[limb] - jacobian @ lean) + lean
+            found[k] = at.joints[mine]
+        return found
 
     def swing(self, limb: int, path: tuple[Floats, Floats, Floats], points: Floats | None) -> None:
         """Where a limb's tip is to be, with velocity and acceleration, and which way its end effector is to point."""

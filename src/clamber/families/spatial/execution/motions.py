@@ -7,7 +7,7 @@ that what comes off under this load test has only to be taken again.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -23,6 +23,10 @@ SETTLING: Final = 0.1
 """After a motion [s]."""
 PRESSED: Final = 1.5
 """Force on something that is to be closed about, of that by which it is noticed [-]."""
+SAMPLES: Final = 33
+"""Places along a swing where the speeds of its joints are looked at."""
+LEAST_SPEED: Final = 0.1
+"""Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
 """Share of a swing after which a tip may touch [-]."""
 AROUND: Final = math.radians(137.5)
@@ -125,10 +129,8 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
     for tries, beside in enumerate(_beside(body, normals[1]), start=1):
         end = place + beside
         seconds = swing_seconds(float(np.linalg.norm(end - body.tips[limb])), body.lift, body.pace.swing)
-        mine = slice(*body.joints_of(limb))
-        moved = np.abs(posture - body.law.aims.posture)[mine] / body.law.limits.speed[mine]
-        seconds = max(seconds, PEAK_SPEED * float(moved.max()) / SPEED)
         path = TipPath(body.tips[limb].copy(), end, normals, body.lift, seconds)
+        path = replace(path, seconds=max(seconds, joint_seconds(body, limb, path, posture)))
         _swing(body, limb, path, posture)
         if _approach(body, limb, path):
             body.hold_on(limb, hold)
@@ -144,6 +146,17 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
         body.let_go(limb)
         normals = np.stack((normals[1], normals[1]))
     return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), body.pace.tries, reason)
+
+
+def joint_seconds(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> float:
+    """Least time of a swing in which its joints keep to their speeds, all along the path and less near their limits [s]."""
+    limits, mine = body.law.limits, slice(*body.joints_of(limb))
+    points = np.array([path.at(share * path.seconds)[0] for share in np.linspace(0.0, 1.0, SAMPLES)])
+    joints = body.joints_along(limb, points, posture)
+    room = np.minimum(joints - limits.lower[mine], limits.upper[mine] - joints)
+    most = np.clip(body.law.gains.limit_rate * room, LEAST_SPEED * limits.speed[mine], limits.speed[mine])
+    per_share = np.abs(np.diff(joints, axis=0)) * (SAMPLES - 1)
+    return float((per_share / np.minimum(most[1:], most[:-1])).max()) / SPEED
 
 
 def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:

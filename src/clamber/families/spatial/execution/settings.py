@@ -35,7 +35,7 @@ class Pace:
     beside: float
     """From a hold to the next place where it is felt for [m]."""
     tries: int
-    """Places that are felt for a hold."""
+    """Places felt for a hold."""
     pressing: float
     """Force of a tip that feels for its hold per way that it misses [N/m]."""
     approach: float

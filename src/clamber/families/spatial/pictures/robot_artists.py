@@ -37,7 +37,7 @@ Colour = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Patch:
-    """One part of a robot as it is seen."""
+    """A part of a robot, as seen."""
 
     depth: float
     """Nearness to the camera [m]."""

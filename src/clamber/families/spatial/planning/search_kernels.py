@@ -46,7 +46,7 @@ def key(p, s, words):
 
 @inlined
 def signed(word):
-    """A number of 16 bits with its sign."""
+    """A signed number of 16 bits."""
     return ((word & 0xFFFF) ^ 0x8000) - 0x8000
 
 
@@ -114,7 +114,7 @@ def heuristic_between(p, s, t):
 
 @kernel
 def done(p, s):
-    """Whether every goal has been met."""
+    """Whether every goal is met."""
     return s.stage >= p.n_goals
 
 

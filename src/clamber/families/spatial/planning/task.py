@@ -62,7 +62,7 @@ class Start:
     along: Length = 0.0
     """Along the guide [m]."""
     across: Length = 0.0
-    """Across the guide, to its left [m]."""
+    """Across it, to its left [m]."""
     height: Length
     """Of the body's origin over the guide [m]."""
     yaw: Angle = 0.0
@@ -179,7 +179,7 @@ class SpatialTask(Pictured):
     start: Start
     step: Lattice
     goals: tuple[Goal, ...]
-    """Sub-goals in order, then the goal."""
+    """Sub-goals, then the goal."""
     rules: Rules
     document: Json = field(default_factory=dict)
     """Robot, world and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""

@@ -58,7 +58,7 @@ class AreaFoot:
     friction: NonNegativeRatio
     """Coefficient of friction [-]."""
     length: PositiveLength
-    """Along the end effector's x [m]."""
+    """Along the tip's x [m]."""
     width: PositiveLength
     """Along its y [m]."""
     tilt: ConeAngle
@@ -258,7 +258,7 @@ class Suction:
     vacuum: PositivePressure
     """Below the pressure around it [Pa]."""
     diameter: PositiveLength
-    """Of the area that is sucked on [m]."""
+    """Of the area under it [m]."""
     safety: PositiveRatio
     """Factor that the pull is divided by [-]."""
     tilt: ConeAngle
@@ -329,7 +329,7 @@ KINDS: Final[dict[str, type[Any]]] = {
     "suction": Suction,
     "spine": Spine,
 }
-"""Each by the word that files call it."""
+"""Each by its word in files."""
 
 
 def build_contact(document: Document) -> ContactKind:

@@ -32,7 +32,7 @@ def line(**components: float) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
-    """One row of a contact's polytope."""
+    """A row of a polytope."""
 
     coefficients: tuple[float, ...]
     """Of the wrench (normal, two tangents: force, then moment), shape (6,)."""

@@ -29,7 +29,7 @@ class Handling:
     body: PositiveRatio = 0.05
     """Largest acceleration of the body on its way, of the agility [-]."""
     swing: PositiveRatio = 0.2
-    """The same of a tip that swings [-]."""
+    """Of a tip that swings [-]."""
     shift: PositiveRatio = 0.5
     """Time in which load passes from one set of limbs to another, of what the agility takes for the length of a limb [-]."""
     touch: PositiveRatio = 0.02

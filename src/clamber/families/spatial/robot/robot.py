@@ -125,7 +125,7 @@ class SpatialRobot(Pictured):
 
     @property
     def limb_names(self) -> tuple[str, ...]:
-        """Names of the limbs, in order."""
+        """Of the limbs, in order."""
         return self.chains.limb_names
 
     @property

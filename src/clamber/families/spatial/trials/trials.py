@@ -31,13 +31,13 @@ class SpatialTrial(Jsonable):
 
     seed: Count
     done: bool
-    """Whether the plan came to its end."""
+    """Whether it came to its end."""
     reason: str
     """Why not; empty where it did."""
     seconds: float
     """Simulated."""
     actions: Count
-    """Of the plan that were carried out."""
+    """That were carried out."""
     off: float
     """Largest distance of the body from where it was to be, as believed [m]."""
     lost: float | None
@@ -45,7 +45,7 @@ class SpatialTrial(Jsonable):
     breaks: Count
     """Contacts that came off."""
     replans: Count
-    """Plans that were made on the way."""
+    """Plans made on the way."""
     wall_seconds: float
     """That it took."""
 

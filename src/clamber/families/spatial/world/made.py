@@ -59,7 +59,7 @@ class Wanted:
     bumps: float | None = None
     angle: float | None = None
     gap: float | None = None
-    """Between the walls of a chimney."""
+    """Between a chimney's walls."""
     left_out: float = 0.0
     """Share of holds that are missing, at random [-]."""
     seed: int = 0
