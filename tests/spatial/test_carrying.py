@@ -13,7 +13,7 @@ from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, joint_seconds, rest
+from clamber.families.spatial.execution.motions import SPEED, joint_seconds, regrab, rest
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
 from clamber.families.spatial.execution.settings import Pace
@@ -111,9 +111,9 @@ def test_a_robot_carries_its_first_steps_out(name: str) -> None:
     assert np.array_equal(again.true_pose, run.trace.true_pose)  # type: ignore[arg-type]
 
 
-def standing_body(task: SpatialTask, start: Standing) -> LimbedBody:
+def standing_body(task: SpatialTask, start: Standing, flaws: SpatialFlaws | None = None) -> LimbedBody:
     """A robot that stands at rest, as it would at the start of a run."""
-    plant = SpatialSim(task.robot, task.world, SpatialFlaws())
+    plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws())
     belief = EstimatedBase(task.robot, task.world, believed_tree(task.robot, task.world.gravity), plant.period)
     body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     body.start(start)
@@ -195,6 +195,26 @@ def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -
     body.law.state.joints[mine] = joints[-1]
     body.law.look()
     assert body.tips[limb] == pytest.approx(end, abs=0.01 * body.pace.size)
+
+
+def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
+    """A reading in twenty is above what a foot stands at: each swing would end in the air by one of them."""
+    task, plan = first_steps("rubble-hexapod", grabs=1)
+    motion = next(motion for motion in Course.of(task, plan).motions if isinstance(motion, Regrab))
+    body = standing_body(task, motion.before, SpatialFlaws(force_noise=0.007, seed=2))
+    rest(body, 0.1)
+    stands: list[bool] = []
+
+    def look() -> None:
+        truth = body.plant.truth()
+        assert truth is not None
+        stands.append(bool(truth.wrenches[motion.limb].any()))
+
+    body.told = look
+    assert regrab(body, motion).taken
+    swung = len(stands) - stands[::-1].index(False)
+    assert stands[swung:], "it was taken for landed in the air"
+    assert sum(stands[swung:]) * body.plant.period > 0.5 * body.pace.shift
 
 
 @pytest.mark.slow

@@ -23,6 +23,8 @@ from .settings import Pace
 
 OPEN: Final = 3
 """Ticks after which a switch is believed that says that an end effector has come off."""
+FELT: Final = 3
+"""Readings in a row by which a foot feels its ground."""
 LIFTED: Final = 0.1
 """A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
 SINGULAR: Final = 0.01
@@ -79,7 +81,7 @@ class LimbedBody:
         """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
-        self._open = np.zeros(limbs, np.int64)
+        self._open, self._felt = np.zeros(limbs, np.int64), np.zeros(limbs, np.int64)
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
@@ -212,6 +214,8 @@ class LimbedBody:
         """
         law, aims = self.law, self.law.aims
         self.sensed = self.plant.sense()
+        forces = np.linalg.norm(self.sensed.wrenches[:, :3], axis=1)
+        self._felt[:] = np.where(forces > self.pace.touch, self._felt + 1, 0)
         self._believe()
         for limb in np.flatnonzero(aims.does == HOLDS).tolist():
             aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
@@ -250,7 +254,7 @@ class LimbedBody:
             if hold < 0 or (self._pushing[limb] and not self._stands(limb)):
                 self._open[limb] = 0
                 continue
-            felt = self.sensed.closed[limb] if self.attaches(limb) else self._feels(limb)
+            felt = self.sensed.closed[limb] if self.attaches(limb) else self.feels(limb)
             if not math.isnan(self._sought[limb]):
                 self._seek(limb, hold, bool(felt))
                 continue
@@ -263,9 +267,9 @@ class LimbedBody:
                 self._sought[limb], self._open[limb] = 0.0, 0
                 self.press(limb, self.world.normals[hold])
 
-    def _feels(self, limb: int) -> bool:
-        """Whether a foot feels what it stands on."""
-        return float(np.linalg.norm(self.sensed.wrenches[limb, :3])) > self.pace.touch
+    def feels(self, limb: int) -> bool:
+        """Whether a foot feels what it stands on: one reading may be noise, a few in a row are not."""
+        return int(self._felt[limb]) >= FELT
 
     def _seek(self, limb: int, hold: int, felt: bool) -> None:
         """Feel on along the inward normal for what a foot stood on."""

@@ -153,10 +153,10 @@ def joint_seconds(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -
     limits, mine = body.law.limits, slice(*body.joints_of(limb))
     points = np.array([path.at(share * path.seconds)[0] for share in np.linspace(0.0, 1.0, SAMPLES)])
     joints = body.joints_along(limb, points, posture)
-    room = np.minimum(joints - limits.lower[mine], limits.upper[mine] - joints)
-    most = np.clip(body.law.gains.limit_rate * room, LEAST_SPEED * limits.speed[mine], limits.speed[mine])
-    per_share = np.abs(np.diff(joints, axis=0)) * (SAMPLES - 1)
-    return float((per_share / np.minimum(most[1:], most[:-1])).max()) / SPEED
+    moved = np.diff(joints, axis=0)
+    ahead = np.where(moved > 0.0, limits.upper[mine] - joints[1:], joints[1:] - limits.lower[mine])
+    most = np.clip(body.law.gains.limit_rate * ahead, LEAST_SPEED * limits.speed[mine], limits.speed[mine])
+    return float((np.abs(moved) * (SAMPLES - 1) / most).max()) / SPEED
 
 
 def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
@@ -223,5 +223,6 @@ def touches(body: LimbedBody, limb: int) -> bool:
 
 def presses(body: LimbedBody, limb: int) -> bool:
     """Whether a limb's tip is on something: a foot at once, another end effector when it is pressed on."""
-    least = body.pace.firm if body.attaches(limb) else body.pace.touch
-    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > least
+    if not body.attaches(limb):
+        return body.feels(limb)
+    return float(np.linalg.norm(body.sensed.wrenches[limb, :3])) > body.pace.firm
