@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
+from ...control.whole_body.laws import USUAL, body_law
 from ...errors import SpecError
 from ...family import NotOfFamilyError, family_of
 from ...json_form import INLINE
@@ -16,7 +17,7 @@ from .execution.carrying import Replan
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
-from .trials.run_plan import SpatialRun, run_plan
+from .trials.run_plan import Control, SpatialRun, run_plan
 from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 
 if TYPE_CHECKING:
@@ -51,7 +52,8 @@ class SpatialDynamics(Dynamics):
     past = "carried out"
 
     def check(self, work: SpatialTask, asked: Conditions) -> None:
-        """Plant and noise; there are no faults."""
+        """Plant, noise and law; there are no faults."""
+        body_law(asked.law or USUAL)
         read_spatial_flaws(asked.plant)
         _noise(asked)
         if isinstance(asked, TrialsRequest) and asked.faults:
@@ -78,7 +80,7 @@ class SpatialDynamics(Dynamics):
             deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
             progress=told,
             log=asked.log,
-            replan=_replanner(asked, events) if asked.replan else None,
+            control=Control(asked.law or USUAL, _replanner(asked, events) if asked.replan else None),
             label=label,
         )
 
@@ -115,7 +117,7 @@ class SpatialDynamics(Dynamics):
         label: str = "plan",
     ) -> SpatialSetup:
         """What all runs have in common."""
-        setup = SpatialSetup(task=work, noise=_noise(asked), plant=tuple(asked.plant), plan=plan, planned=plan is None)
+        setup = SpatialSetup(task=work, noise=_noise(asked), plant=tuple(asked.plant), law=asked.law or USUAL, plan=plan, planned=plan is None)
         return replace(setup, plan=self._fit(work, plan or setup.stored_plan(store), asked, events, 0, label))
 
     def trials_json(self, trials: SpatialTrials, held_out: bool) -> TrialedRuns:

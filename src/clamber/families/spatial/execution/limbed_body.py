@@ -1,4 +1,4 @@
-"""A robot in space under whole-body control: a tick, and what its limbs hold on to as it believes."""
+"""A robot in space under a law of its whole body: a tick, and what its limbs hold on to as it believes."""
 
 import math
 from collections.abc import Callable
@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.law import WholeBody
+from ....control.whole_body.laws import USUAL, body_law
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
 from ....control.whole_body.tree import FREE
 from ....execution.run_report import FallenError
@@ -52,6 +52,7 @@ class LimbedBody:
         pace: How quickly it moves.
         lift: Height of swinging tips over their holds [m].
         gains: Of its law; None: the usual ones for its size.
+        law: Its name, of `BODY_LAWS`.
     """
 
     def __init__(
@@ -63,11 +64,12 @@ class LimbedBody:
         pace: Pace,
         lift: float,
         gains: Gains | None = None,
+        law: str = USUAL,
     ) -> None:
         self.robot, self.world, self.plant, self.belief = robot, world, plant, belief
         self.pace, self.lift = pace, lift
         tree = believed_tree(robot, world.gravity)
-        self.law = WholeBody(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
+        self.law = body_law(law)(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
         self.holds: Ints = np.full(limbs, -1, np.int32)

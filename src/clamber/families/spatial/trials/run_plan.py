@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
+from ....control.whole_body.laws import USUAL
 from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import HoldBreak
@@ -66,6 +67,16 @@ class SpatialRun(Jsonable, Pictured):
         return self.report.reason
 
 
+@dataclass(frozen=True, slots=True)
+class Control:
+    """Who controls a run."""
+
+    law: str = USUAL
+    """Of the whole body, by name."""
+    replan: Replan | None = None
+    """Makes another plan for the rest of a task where a hold cannot be had; None: none is made."""
+
+
 def run_plan(
     task: SpatialTask,
     plan: Plan,
@@ -74,7 +85,7 @@ def run_plan(
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
     log: Path | WantedLog | None = None,
-    replan: Replan | None = None,
+    control: Control = Control(),  # noqa: B008  # frozen
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
@@ -86,11 +97,11 @@ def run_plan(
         deviations: How robot and world truly are; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
         log: An .mcap file that grows as the robot moves (`execution.log_stream`).
-        replan: Makes another plan for the rest of the task where a hold cannot be had; None: none is made.
+        control: Law, and who plans again.
         label: What errors call the plan.
 
     Raises:
-        ClamberError: If an action is none of the task's.
+        ClamberError: If an action is none of the task's, or no law has that name.
     """
     began = time.perf_counter()
     course = Course.of(task, plan, label)
@@ -105,10 +116,12 @@ def run_plan(
         coarse=sensors.encoder_step > 0.0,
         play=sensors.backlash,
     )
-    body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
+    body = TracedBody(
+        task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift, law=control.law
+    )
     scene = space_scene(task, true="base x true [m]" in body.titles)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC, scene) as finish:
-        report = Sequencer(Carrying(body, task, course, replan), progress=progress).run()
+        report = Sequencer(Carrying(body, task, course, control.replan), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
         gap = finish(notes)
     return SpatialRun(

@@ -8,6 +8,7 @@ from typing import Annotated, Final
 
 import numpy as np
 
+from ....control.whole_body.laws import USUAL
 from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
@@ -17,7 +18,7 @@ from ....types import Floats, Json
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
 from .noise import SpatialNoise
-from .run_plan import SpatialRun, run_plan
+from .run_plan import Control, SpatialRun, run_plan
 
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
@@ -67,6 +68,7 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
         deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
         progress=told,
+        control=Control(item.get("law", USUAL)),
     )
 
 
@@ -102,6 +104,8 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     noise: SpatialNoise
     plant: tuple[str, ...] = ()
     """Settings of the plant, such as "friction=50%"."""
+    law: str = USUAL
+    """Of the whole body, by name."""
     plan: Plan | None = None
     planned: bool = False
     """Whether a planner made the plan, so that it is no part of what was asked for."""
@@ -128,7 +132,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
         return f"runs of '{self.name}'"
 
     def about(self) -> Json:
-        """Task, plant, noise, and the plan if it was asked for."""
+        """Task, plant, noise, law, and the plan if it was asked for."""
         return self._plain() | {"plan": None if self.plan is None or self.planned else self.plan.to_json()}
 
     def item(self, seed: int) -> Json:
@@ -137,7 +141,8 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
         return self._plain() | {"plan": self.plan.to_json() | {"document": {}}, "seed": seed}
 
     def _plain(self) -> Json:
-        return {"document": self.task.document, "plant": list(self.plant), "noise": self.noise.to_json()}
+        law = {} if self.law == USUAL else {"law": self.law}  # stores of older versions have none
+        return {"document": self.task.document, "plant": list(self.plant), "noise": self.noise.to_json()} | law
 
     def begun(self, asked: int) -> "SpatialTrials":
         """No runs yet."""
