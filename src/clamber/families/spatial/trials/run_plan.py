@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, TypeVar
 
 from ....control.whole_body.laws import USUAL
 from ....execution.log_scene import LoggedScene
@@ -77,6 +77,31 @@ class Control:
     """Makes another plan for the rest of a task where a hold cannot be had; None: none is made."""
 
 
+B = TypeVar("B", bound=TracedBody)
+
+
+def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[B] = TracedBody) -> B:  # type: ignore[assignment]
+    """The robot of a run, which estimates where it is.
+
+    Args:
+        task: Robot and world, as believed.
+        plant: What moves.
+        law: Of the whole body, by name.
+        kind: Class of the body.
+    """
+    sensors = plant.flaws
+    belief = EstimatedBase(
+        task.robot,
+        task.world,
+        believed_tree(task.robot, task.world.gravity),
+        plant.period,
+        late=sensors.late * plant.period,
+        coarse=sensors.encoder_step > 0.0,
+        play=sensors.backlash,
+    )
+    return kind(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift, law=law)
+
+
 def run_plan(
     task: SpatialTask,
     plan: Plan,
@@ -106,19 +131,7 @@ def run_plan(
     began = time.perf_counter()
     course = Course.of(task, plan, label)
     plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
-    sensors = plant.flaws
-    belief = EstimatedBase(
-        task.robot,
-        task.world,
-        believed_tree(task.robot, task.world.gravity),
-        plant.period,
-        late=sensors.late * plant.period,
-        coarse=sensors.encoder_step > 0.0,
-        play=sensors.backlash,
-    )
-    body = TracedBody(
-        task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift, law=control.law
-    )
+    body = body_of(task, plant, control.law)
     scene = space_scene(task, true="base x true [m]" in body.titles)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC, scene) as finish:
         report = Sequencer(Carrying(body, task, course, control.replan), progress=progress).run()
