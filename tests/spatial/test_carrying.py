@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clamber.control.whole_body.laws import BODY_LAWS
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
@@ -23,6 +24,8 @@ from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.families.spatial.sim.spatial_model import LINKS
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
+from clamber.families.spatial.trials.law_trials import first_steps as short_plan
+from clamber.families.spatial.trials.law_trials import try_law
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
@@ -117,6 +120,20 @@ def standing_body(task: SpatialTask, start: Standing) -> LimbedBody:
     body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     body.start(start)
     return body
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", BODY_LAWS)
+def test_every_law_carries_first_steps_out(law: str) -> None:
+    task = load_task("wall-gripper")
+    assert isinstance(task, SpatialTask)
+    trial, _ = try_law(task, short_plan(task), law)
+    assert not trial.reason
+    assert (trial.motions, trial.off) == (3, 0)
+    size = Pace.of(task.robot).size
+    assert trial.body < 0.1 * size and trial.tip < 0.1 * size
+    assert trial.slid < 0.001 * size
+    assert trial.torque < 1.0
 
 
 FOOTED = ("stones-quadruped", "chimney-hexapod")

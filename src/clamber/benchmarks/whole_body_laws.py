@@ -9,7 +9,7 @@ import numpy as np
 from ..control.whole_body.law import BodyLaw
 from ..control.whole_body.laws import BODY_LAWS, USUAL
 from ..families.spatial.planning.task import SpatialTask
-from ..families.spatial.trials.law_trials import first_steps, law_at, try_law
+from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, try_law
 from ..tasks import load_task
 from .control_speed import round_times
 from .rows import NOTHING, Row, Say, keep_quiet
@@ -38,7 +38,8 @@ def law_rows(*, tasks: Sequence[str] = TASKS, rounds: int = ROUNDS, say: Say = k
     for name in tasks:
         task = load_task(name)
         assert isinstance(task, SpatialTask)
-        plan, moments = first_steps(task), []
+        plan = first_steps(task)
+        moments: list[Moment] = []
         for law in BODY_LAWS:
             say(f"{name}: first steps by {law}")
             trial, seen = try_law(task, plan, law)

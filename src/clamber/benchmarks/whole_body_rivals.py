@@ -72,7 +72,7 @@ def pulls(law: BodyLaw, limb: int) -> bool:
 
 
 def placo_tick(laws: Sequence[BodyLaw]) -> Tick:
-    """placo's `DynamicsSolver`, which solves by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
+    """The `DynamicsSolver` of placo, which solves by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
     import placo
 
     def made(law: BodyLaw) -> Callable[[], Floats]:
@@ -117,7 +117,7 @@ def placo_tick(laws: Sequence[BodyLaw]) -> Tick:
 
 
 def tsid_tick(laws: Sequence[BodyLaw]) -> Tick:
-    """TSID's formulation of accelerations and forces, solved by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
+    """Accelerations and forces as TSID has them, by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
     import pinocchio
     from tsid import tsid_pywrap as tsid  # some of its wheels have nothing in the package itself
 

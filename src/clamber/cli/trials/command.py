@@ -53,7 +53,8 @@ class TrialsOptions:
         ),
     ] = None
     against_law: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Law of what is compared; without --against, the same by this law.")
+        str | None,
+        typer.Option(metavar="NAME", help="Law of what is compared; without --against, the same by this law."),
     ] = None
     replay: Annotated[
         int | None, typer.Option(min=0, metavar="SEED", help="Climb this one trial again, for -o a log or a picture.")

@@ -122,7 +122,8 @@ def share_wrenches(dynamics, aims, gains, room, gravity):
         for limb in range(aims.does.size):
             if turned == 0:
                 for c in range(6):
-                    wrenches[limb, c] = aims.wrench[limb, c] if aims.does[limb] == HOLDS else 0.0
+                    holds = aims.does[limb] == HOLDS and c < aims.components[limb]
+                    wrenches[limb, c] = aims.wrench[limb, c] if holds else 0.0
             if aims.does[limb] != HOLDS or aims.cap[limb] <= 0.0:
                 continue
             some = True

@@ -117,7 +117,14 @@ class SpatialDynamics(Dynamics):
         label: str = "plan",
     ) -> SpatialSetup:
         """What all runs have in common."""
-        setup = SpatialSetup(task=work, noise=_noise(asked), plant=tuple(asked.plant), law=asked.law or USUAL, plan=plan, planned=plan is None)
+        setup = SpatialSetup(
+            task=work,
+            noise=_noise(asked),
+            plant=tuple(asked.plant),
+            law=asked.law or USUAL,
+            plan=plan,
+            planned=plan is None,
+        )
         return replace(setup, plan=self._fit(work, plan or setup.stored_plan(store), asked, events, 0, label))
 
     def trials_json(self, trials: SpatialTrials, held_out: bool) -> TrialedRuns:

@@ -5,8 +5,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from ....control.whole_body.laws import USUAL, body_law
 from ....control.whole_body.law import BodyLaw
+from ....control.whole_body.laws import USUAL, body_law
 from ....control.whole_body.programme import HOLDS, SWINGS, Aims, Gains
 from ....control.whole_body.tree import State
 from ....execution.sequencer import Sequencer
@@ -108,6 +108,7 @@ def try_law(task: SpatialTask, plan: Plan, law: str) -> tuple[LawTrial, list[Mom
     """Stand, and carry a plan out by a law; what became of it, and moments of the run."""
     plant = SpatialSim(task.robot, task.world, SpatialFlaws())
     body = body_of(task, plant, law, WatchedBody)
+    assert isinstance(body, WatchedBody)
     report = Sequencer(Carrying(body, task, Course.of(task, plan))).run()
     truth = plant.truth()
     trial = LawTrial(
@@ -125,8 +126,8 @@ def law_at(task: SpatialTask, moment: Moment, law: str = USUAL) -> BodyLaw:
     """A law of a task's robot at a moment."""
     tree = believed_tree(task.robot, task.world.gravity)
     made = body_law(law)(tree, joint_limits(task.robot), Gains(arm=Pace.of(task.robot).size), MOST_ROWS)
-    for arrays, kept in ((made.state, moment.state), (made.aims, moment.aims)):
-        for array, values in zip(arrays, kept, strict=True):
-            array[...] = values
+    arrays: tuple[Any, ...] = (*made.state, *made.aims)
+    for array, values in zip(arrays, (*moment.state, *moment.aims), strict=True):
+        array[...] = values
     made.look()
     return made

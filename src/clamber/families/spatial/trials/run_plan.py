@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 from ....control.whole_body.laws import USUAL
 from ....execution.log_scene import LoggedScene
@@ -77,10 +77,7 @@ class Control:
     """Makes another plan for the rest of a task where a hold cannot be had; None: none is made."""
 
 
-B = TypeVar("B", bound=TracedBody)
-
-
-def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[B] = TracedBody) -> B:  # type: ignore[assignment]
+def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[TracedBody] = TracedBody) -> TracedBody:
     """The robot of a run, which estimates where it is.
 
     Args:
@@ -110,7 +107,7 @@ def run_plan(
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
     log: Path | WantedLog | None = None,
-    control: Control = Control(),  # noqa: B008  # frozen
+    control: Control = Control(),
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
