@@ -6,7 +6,7 @@ from typing import Final
 
 import numpy as np
 
-from ..control.whole_body.law import BodyLaw
+from ..control.whole_body.law import BodyLaw, WholeBody
 from ..control.whole_body.laws import BODY_LAWS, USUAL
 from ..families.spatial.planning.task import SpatialTask
 from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, try_law
@@ -64,5 +64,8 @@ def law_rows(*, tasks: Sequence[str] = TASKS, rounds: int = ROUNDS, say: Say = k
                 missing.append(f"{rival} (not installed: pip install 'clamber[{EXTRAS[rival]}]')")
         times = np.median(round_times(tuple(works.values()), rounds), axis=0) / len(moments)
         rows += [Row(f"{name}, {law}: tick", 1e6 * seconds, "us") for law, seconds in zip(works, times, strict=True)]
+        told = [law.told for law in kinds[USUAL] if isinstance(law, WholeBody)]
+        solving = np.median([each["setup_time"] + each["solve_time"] for each in told])
+        rows.append(Row(f"{name}, {USUAL}: of its tick DAQP's", 1e6 * float(solving), "us"))
         rows += [Row(f"{name}, {rival}", NOTHING, "us") for rival in missing]
     return rows
