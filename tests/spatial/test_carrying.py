@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.control.whole_body.laws import BODY_LAWS
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
+from clamber.families.spatial.control.laws import BODY_LAWS
 from clamber.families.spatial.dynamics import DYNAMICS, careful
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase

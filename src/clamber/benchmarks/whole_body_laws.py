@@ -7,13 +7,11 @@ from typing import Final
 import numpy as np
 
 from ..control.whole_body.law import BodyLaw, WholeBody
-from ..control.whole_body.laws import BODY_LAWS, USUAL
-from ..families.spatial.planning.task import SpatialTask
-from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, try_law
-from ..tasks import load_task
+from ..families.spatial.control.laws import BODY_LAWS, USUAL
+from ..families.spatial.trials.law_rivals import RIVALS, Tick, installed
+from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, try_law
 from .control_speed import round_times
 from .rows import NOTHING, Row, Say, keep_quiet
-from .whole_body_rivals import RIVALS, Tick, installed
 
 TASKS: Final = ("wall-gripper", "stones-quadruped", "corners-magnet")
 ROUNDS: Final = 15
@@ -36,8 +34,7 @@ def law_rows(*, tasks: Sequence[str] = TASKS, rounds: int = ROUNDS, say: Say = k
     """Stand, a move of the body, a regrab and another move by each law; errors as they truly were, ticks on moments of the first run."""
     rows: list[Row] = []
     for name in tasks:
-        task = load_task(name)
-        assert isinstance(task, SpatialTask)
+        task = spatial_task(name)
         plan = first_steps(task)
         moments: list[Moment] = []
         for law in BODY_LAWS:

@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
 
-from ...control.whole_body.laws import USUAL, body_law
 from ...errors import SpecError
 from ...family import NotOfFamilyError, family_of
 from ...json_form import INLINE
 from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .control.laws import USUAL, body_law
 from .execution.carrying import Replan
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws

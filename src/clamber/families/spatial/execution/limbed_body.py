@@ -6,12 +6,12 @@ from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.laws import USUAL, body_law
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
 from ....control.whole_body.tree import FREE
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
+from ..control.laws import USUAL, body_law
 from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World

@@ -6,15 +6,16 @@ from typing import Any, Final
 import numpy as np
 
 from ....control.whole_body.law import BodyLaw
-from ....control.whole_body.laws import USUAL, body_law
 from ....control.whole_body.programme import HOLDS, SWINGS, Aims, Gains
 from ....control.whole_body.tree import State
 from ....execution.sequencer import Sequencer
 from ....planning.problem.codes import MOVE, NEAREST, pack
 from ....planning.problem.plan import Plan
 from ....planning.problem.problems import plan_family
+from ....tasks import load_task
 from ....types import Floats
 from ..control.believed_tree import believed_tree, joint_limits
+from ..control.laws import USUAL, body_law
 from ..execution.carrying import Carrying
 from ..execution.course import Course
 from ..execution.run_trace import TracedBody
@@ -90,6 +91,13 @@ class WatchedBody(TracedBody):
 def copied(arrays: Any) -> Any:
     """A tuple of arrays, with copies of them."""
     return type(arrays)(*(array.copy() for array in arrays))
+
+
+def spatial_task(name: str) -> SpatialTask:
+    """A task of a robot in space, by its name."""
+    task = load_task(name)
+    assert isinstance(task, SpatialTask)
+    return task
 
 
 def first_steps(task: SpatialTask) -> Plan:

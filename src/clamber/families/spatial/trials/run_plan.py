@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from ....control.whole_body.laws import USUAL
 from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
 from ....execution.plant import HoldBreak
@@ -15,6 +14,7 @@ from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ..control.believed_tree import believed_tree
+from ..control.laws import USUAL
 from ..execution.carrying import Carrying, Replan
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course

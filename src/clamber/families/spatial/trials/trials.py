@@ -8,13 +8,13 @@ from typing import Annotated, Final
 
 import numpy as np
 
-from ....control.whole_body.laws import USUAL
 from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
+from ..control.laws import USUAL
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
 from .noise import SpatialNoise

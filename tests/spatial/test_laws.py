@@ -8,10 +8,10 @@ import pytest
 from scipy.optimize import least_squares
 
 from clamber.control.whole_body.law import BodyLaw
-from clamber.control.whole_body.laws import BODY_LAWS, body_law
 from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits
 from clamber.control.whole_body.tree import State, Tree
 from clamber.errors import UnknownNameError
+from clamber.families.spatial.control.laws import BODY_LAWS, body_law
 from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 from plain_spatial import turn_about
 

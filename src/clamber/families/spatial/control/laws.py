@@ -7,12 +7,12 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from ...errors import UnknownNameError
-from ...types import Floats, Ints
-from .law import BodyLaw, WholeBody
+from ....control.whole_body.law import BodyLaw, WholeBody
+from ....control.whole_body.programme import Gains, Limits
+from ....control.whole_body.tree import FREE, Dynamics, State, Tree
+from ....errors import UnknownNameError
+from ....types import Floats, Ints
 from .laws_kernels import jacobian_transpose, joint_impedance, operational_space
-from .programme import Gains, Limits
-from .tree import FREE, Dynamics, State, Tree
 
 
 class Room(NamedTuple):

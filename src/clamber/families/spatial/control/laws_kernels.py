@@ -2,9 +2,11 @@
 
 import math
 
-from ...compiled import kernel
-from .programme import ARM, BASE_RATE, HOLDS, POSTURE_RATE, REST_RATE, SWING_RATE, SWINGS
-from .programme_kernels import wanted_base
+from ....compiled import kernel
+from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, POSTURE_RATE, REST_RATE, SWING_RATE, SWINGS
+from ....control.whole_body.programme_kernels import wanted_base
+from ....control.whole_body.tree import FREE
+from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from .task_kernels import (
     about,
     bear,
@@ -17,8 +19,6 @@ from .task_kernels import (
     turn_error,
     turn_row,
 )
-from .tree import FREE
-from .tree_kernels import place_bodies, tip_motion
 
 GIVES = 0.05
 """By which a joint of an impedance gives way at most when it takes its whole torque [rad] or [m] ..."""

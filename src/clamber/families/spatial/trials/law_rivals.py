@@ -10,10 +10,10 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from ..control.whole_body.law import BodyLaw
-from ..control.whole_body.programme import HOLDS, SWINGS
-from ..control.whole_body.tree import FREE, State
-from ..types import Floats
+from ....control.whole_body.law import BodyLaw
+from ....control.whole_body.programme import HOLDS, SWINGS
+from ....control.whole_body.tree import FREE, State
+from ....types import Floats
 
 Tick: TypeAlias = Callable[[int], Floats]
 """Torques at a moment of those that it was made of, by its index, shape (n,)."""

@@ -2,9 +2,9 @@
 
 import math
 
-from ...compiled import inlined, kernel
-from .programme import ARM, HOLDS, SWING_RATE
-from .tree import FREE
+from ....compiled import inlined, kernel
+from ....control.whole_body.programme import ARM, HOLDS, SWING_RATE
+from ....control.whole_body.tree import FREE
 
 NEAR = 0.03
 """A task of which less than this is left by those before it is met with damping, ever less the less is left [-]."""
