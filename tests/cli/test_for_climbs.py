@@ -14,8 +14,8 @@ from clamber.terminal.worker_options import WorkerOptions
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
 OF_PLANS = (("--task", "ladder"), ("--planner", "exact"), ("--seconds", "3"))
-OF_RUNS = (("--peg-error", "3mm"), ("--no-replan",), ("--plant", "volts"), ("--force",))
-OF_TRIALS = (("--no-replan",), ("--force",))
+OF_RUNS = (("--peg-error", "3mm"), ("--no-replan",), ("--plant", "volts"), ("--force",), ("--law", "whole-body"))
+OF_TRIALS = (("--no-replan",), ("--force",), ("--law", "whole-body"), ("--against-law", "joint-impedance"))
 
 
 def test_every_one_of_them_is_an_option() -> None:
@@ -24,7 +24,7 @@ def test_every_one_of_them_is_an_option() -> None:
     walker = family_named("walker")
     assert walker.dynamics is not None
     for work in (load_task("terrace-walk"), walker.other_work("level-walk")):
-        assert walker.dynamics.unused(work) <= of_run
+        assert walker.dynamics.unused(work) <= of_run | of_trials
         assert walker.dynamics.unused(work) & of_trials
 
 
@@ -41,6 +41,19 @@ def test_what_only_climbs_have_is_refused(command: str, what: str, option: tuple
     code, out, err = clamber(command, what, *option)
     assert (code, out) == (2, "")
     assert option[0] in err and f"'{what}' is a walk" in " ".join(err.split())
+
+
+@pytest.mark.parametrize("option", ["--law", "--against-law"])
+def test_laws_of_a_whole_body_are_for_robots_in_space(option: str, clamber: Run) -> None:
+    code, out, err = clamber("trials", "ladder", option, "joint-impedance")
+    assert (code, out) == (2, "")
+    assert option in err and "'ladder' is a climb" in " ".join(err.split())
+
+
+def test_a_law_that_is_not_there_is_refused_before_a_plan_is_made(clamber: Run) -> None:
+    code, out, err = clamber("run", "wall-gripper", "--law", "joint-stiffness")
+    assert (code, out) == (2, "")
+    assert "joint-stiffness" in err and "jacobian-transpose" in err
 
 
 def test_trials_of_walks_have_no_picture(clamber: Run) -> None:

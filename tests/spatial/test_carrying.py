@@ -9,6 +9,7 @@ import pytest
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
+from clamber.families.spatial.control.laws import BODY_LAWS
 from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
@@ -23,6 +24,8 @@ from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import Deviations, SpatialFlaws
 from clamber.families.spatial.sim.spatial_model import LINKS
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
+from clamber.families.spatial.trials.law_trials import first_steps as short_plan
+from clamber.families.spatial.trials.law_trials import try_law
 from clamber.families.spatial.trials.planning import RESERVES, careful
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
 from clamber.planning.planners import plan_task
@@ -118,6 +121,20 @@ def standing_body(task: SpatialTask, start: Standing, flaws: SpatialFlaws | None
     body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     body.start(start)
     return body
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", BODY_LAWS)
+def test_every_law_carries_first_steps_out(law: str) -> None:
+    task = load_task("wall-gripper")
+    assert isinstance(task, SpatialTask)
+    trial, _ = try_law(task, short_plan(task), law)
+    assert not trial.reason
+    assert (trial.motions, trial.off) == (3, 0)
+    size = Pace.of(task.robot).size
+    assert trial.body < 0.1 * size and trial.tip < 0.1 * size
+    assert trial.slid < 0.001 * size
+    assert trial.torque < 1.0
 
 
 FOOTED = ("stones-quadruped", "chimney-hexapod")

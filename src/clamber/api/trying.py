@@ -40,7 +40,7 @@ def trials(
         plant: Texts "key=value" that change the simulated robot.
         fault: Kinds of faults, one of which each run has.
         options: `workers` (processes; one a core unless given), `ray` (HOST:PORT of a cluster), `store` and `resume` (an SQLite file that
-            keeps each run as it ends), `planner`, `seconds` [s], `replan`, `force`, and `task`, in which a plan's file is carried out.
+            keeps each run as it ends), `planner`, `seconds` [s], `law`, `replan`, `force`, and `task`, in which a plan is carried out.
 
     Returns:
         The trials: `done` of `ended`, each with its `seed`; `again(seed)` is one of them as a whole run. `clamber.draw` draws those of
@@ -61,6 +61,7 @@ def trials(
         plan_seconds=options.get("seconds", 600.0),
         noise=texts("noise", noise),
         plant=work.plant,
+        law=None if (law := options.get("law")) is None else str(law),
         replan=options.get("replan", True),
         force=options.get("force", False),
         faults=texts("fault", fault),

@@ -42,6 +42,7 @@ from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of
 from .walls import wall_rows
+from .whole_body_laws import law_rows
 
 ROUNDS: Final = 15
 """How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""
@@ -256,6 +257,7 @@ BENCHES: Final[dict[str, Callable[..., list[Row]]]] = {
     "hexapod": hexapod_rows,
     "spatial": space_rows,
     "worlds": bench_worlds,
+    "whole-body": law_rows,
 }
 """Name -> benchmark; the command line's choices and the tests read it. Each can be called without arguments, or with `say`."""
 

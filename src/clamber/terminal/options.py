@@ -87,6 +87,14 @@ CarriedOutIn: TypeAlias = Annotated[
     typer.Option(help="Carry the plan out in this task, in place of its own.", autocompletion=names_of("tasks")),
 ]
 Replan: TypeAlias = Annotated[bool, typer.Option(help="Plan again where a hold cannot be had.")]
+BodyLawName: TypeAlias = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help="Law of a robot in space: whole-body, operational-space, jacobian-transpose, joint-impedance.",
+        show_default="whole-body",
+    ),
+]
 Overrides: TypeAlias = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="KEY=VALUE", help="Change one key of task, board or robot, such as start.y=6.2in."),

@@ -46,6 +46,8 @@ class Conditions:
     """Texts "key=width": how far properties may be off what is believed."""
     plant: tuple[str, ...] = ()
     """Texts "key=value" that change the simulated robot."""
+    law: str | None = None
+    """Of the whole body of a robot in space, by name; None: the usual one."""
     replan: bool = True
     """Whether a new plan is searched for where a hold cannot be had."""
     force: bool = False

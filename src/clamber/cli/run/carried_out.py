@@ -41,6 +41,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             noise=noise,
             plant=work.plant,
             seed=words.seed,
+            law=words.law,
             replan=words.replan,
             force=words.force,
             motors=words.plant,

@@ -10,6 +10,7 @@ import typer
 from ...terminal.options import (
     PLAN_SECONDS,
     AsJson,
+    BodyLawName,
     CarriedOutIn,
     NoiseTexts,
     Overrides,
@@ -35,6 +36,7 @@ class RunOptions:
     noise: NoiseTexts = None
     peg_error: Annotated[str | None, typer.Option(help="Short for --noise peg_error=..., such as 3mm.")] = None
     seed: Annotated[int, typer.Option(min=0, help="Of planner and noise.")] = 0
+    law: BodyLawName = None
     replan: Replan = True
     plant: Annotated[str, typer.Option(help="What moves: torques, volts, or the ADDRESS of `clamber plant serve`.")] = (
         "torques"

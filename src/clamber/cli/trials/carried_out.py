@@ -43,7 +43,8 @@ def try_out(works: Sequence[Work], asked: TrialsOptions, words: WorkerOptions) -
         asked: How, and how often.
         words: Who runs them, where they are kept, how they are told.
     """
-    requests = [_request(work, asked, words) for work in works]
+    laws = asked.law, asked.against_law or asked.law
+    requests = [_request(work, asked, words, law) for work, law in zip(works, laws, strict=False)]
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
     announce_compilation(quiet=words.quiet)
@@ -75,7 +76,7 @@ def _beside(file: Path | None) -> Path | None:
     return None if file is None else file.with_name(f"{file.stem}-against{file.suffix}")
 
 
-def _request(work: Work, asked: TrialsOptions, words: WorkerOptions) -> TrialsRequest:
+def _request(work: Work, asked: TrialsOptions, words: WorkerOptions, law: str | None) -> TrialsRequest:
     """How a work is tried, after everything that can't be was refused."""
     dynamics = work.dynamics
     refuse_unused(asked, dynamics.unused(work.item), f"'{work.label}' is a {dynamics.kind}")
@@ -89,6 +90,7 @@ def _request(work: Work, asked: TrialsOptions, words: WorkerOptions) -> TrialsRe
         plan_seconds=asked.seconds,
         noise=tuple(asked.noise or ()),
         plant=work.plant,
+        law=law,
         replan=asked.replan,
         force=asked.force,
         faults=tuple(asked.fault or ()),

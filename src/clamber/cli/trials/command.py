@@ -8,6 +8,7 @@ import typer
 from ...terminal.name_completion import names_of
 from ...terminal.options import (
     PLAN_SECONDS,
+    BodyLawName,
     CarriedOutIn,
     Faults,
     NoiseTexts,
@@ -37,6 +38,7 @@ class TrialsOptions:
     planner: PlannerName = "auto"
     seconds: PlanSeconds = PLAN_SECONDS
     overrides: Overrides = None
+    law: BodyLawName = None
     replan: Replan = True
     force: Annotated[bool, typer.Option("--force", help="Carry out a plan that its checks refuse.")] = False
     at_least: Annotated[
@@ -49,6 +51,10 @@ class TrialsOptions:
             help="Try this with the same seeds, and compare (sign test).",
             autocompletion=names_of("tasks", "plans", "walks"),
         ),
+    ] = None
+    against_law: Annotated[
+        str | None,
+        typer.Option(metavar="NAME", help="Law of what is compared; without --against, the same by this law."),
     ] = None
     replay: Annotated[
         int | None, typer.Option(min=0, metavar="SEED", help="Climb this one trial again, for -o a log or a picture.")
@@ -79,6 +85,11 @@ class TrialsOptions:
         """
         return None if self.at_least is None else _share(self.at_least)
 
+    @property
+    def compares(self) -> bool:
+        """Whether two works or laws are tried."""
+        return self.against is not None or self.against_law is not None
+
     def check(self) -> None:
         """Refuse what can't be, before anything is planned.
 
@@ -88,8 +99,8 @@ class TrialsOptions:
         """
         if self.at_least is not None:
             _share(self.at_least)
-        if self.against is not None and self.replay is not None:
-            raise typer.BadParameter("compares many runs; --replay is one", param_hint="--against")
+        if self.compares and self.replay is not None:
+            raise typer.BadParameter("compares many runs; --replay is one", param_hint="--against, --against-law")
         from ...trials.held_out import are_held_out
 
         are_held_out(self.seeds)
@@ -128,5 +139,5 @@ def trials(
     from .carried_out import try_out
 
     asked.check()
-    named = [what] if asked.against is None else [what, asked.against]
+    named = [what, asked.against or what] if asked.compares else [what]
     try_out([open_work(each, asked.task, asked.overrides or ()) for each in named], asked, words)

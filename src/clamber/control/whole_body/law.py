@@ -1,5 +1,6 @@
-"""Whole-body control: at each tick the accelerations and contact wrenches that come nearest to what is asked for, as motor torques."""
+"""Laws of a whole body: the face that all have, and whole-body control by a quadratic programme of accelerations and contact wrenches."""
 
+from abc import ABC, abstractmethod
 from typing import Any, Final
 
 import numpy as np
@@ -11,10 +12,10 @@ from .tree import Dynamics, State, Tree
 from .tree_kernels import work_out
 
 DAMPED: Final = 0.1
-"""Of a joint's largest torque that motion of 1 rad/s takes where no programme can be solved [s]."""
+"""Of a joint's largest torque that motion of 1 rad/s takes where a law finds no torques [s]."""
 
 
-class WholeBody:
+class BodyLaw(ABC):
     """The law of one robot, with its memory.
 
     Args:
@@ -25,8 +26,6 @@ class WholeBody:
     """
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
-        import daqp
-
         self.tree, self.limits, self.gains = tree, limits, gains
         self.state, self.dynamics = State.of(tree), Dynamics.of(tree)
         self.aims = Aims.of(tree, most_rows)
@@ -35,26 +34,48 @@ class WholeBody:
         self.wrenches: Floats = np.zeros((tree.limbs, 6))
         """That contacts are meant to bear, each in its own frame, shape (limbs, 6)."""
         self.failures = 0
-        """Ticks whose programme had no solution."""
-        self._solve: Any = daqp.solve
-        self._packed, self._programme = gains.packed(), Programme.of(tree, most_rows)
-        self._views: dict[tuple[int, int], tuple[Any, ...]] = {}
-        self._damping = DAMPED * float(np.min(limits.torque))
+        """Ticks in which the law found no torques."""
+        self._packed, self._damping = gains.packed(), DAMPED * float(np.min(limits.torque))
 
     def look(self) -> None:
         """Work out the dynamics of `state`."""
         work_out(self.tree, self.state, self.dynamics)
 
+    @abstractmethod
     def tick(self) -> Floats:
         """Torques for `aims` in `state`, after `look`; shape (n,), the law's own."""
+
+    def _fail(self) -> Floats:
+        """Torques that hold the robot by the wrenches that are wanted."""
+        self.failures += 1
+        hold_torques(self.dynamics, self.aims, self.limits, self._damping, self.state, self.torques)
+        return self.torques
+
+
+class WholeBody(BodyLaw):
+    """Whole-body control: at each tick the accelerations and contact wrenches that come nearest to what is asked for, as motor torques.
+
+    All limits are kept: of torques, of contacts, and, as far as that can be, of joints.
+    """
+
+    def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
+        import daqp
+
+        super().__init__(tree, limits, gains, most_rows)
+        self._solve: Any = daqp.solve
+        self.told: dict[str, Any] = {}
+        """What the solver says of the last tick: `setup_time`, `solve_time` [s], `iterations`."""
+        self._programme = Programme.of(tree, most_rows)
+        self._views: dict[tuple[int, int], tuple[Any, ...]] = {}
+
+    def tick(self) -> Floats:
+        """See `BodyLaw`."""
         programme, aims = self._programme, self.aims
         n, m = write_programme(self.tree, self.state, self.dynamics, aims, self.limits, self._packed, programme)
         views = self._views.get((n, m)) or self._view(n, m)
-        x, _, flag, _ = self._solve(*views)
+        x, _, flag, self.told = self._solve(*views)
         if flag < 1:
-            self.failures += 1
-            hold_torques(self.dynamics, aims, self.limits, self._damping, self.state, self.torques)
-            return self.torques
+            return self._fail()
         read_torques(self.dynamics, self.limits, programme, views[2], x, self.torques)
         for limb, at in enumerate(programme.at.tolist()):
             self.wrenches[limb] = 0.0

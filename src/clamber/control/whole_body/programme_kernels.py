@@ -43,16 +43,11 @@ def add_row(h, f, jacobian, row, wanted, weight):
 
 
 @kernel
-def base_tasks(dynamics, state, aims, gains, h, f):
-    """The base follows its aim: errors die away without overshoot."""
-    rate = gains[BASE_RATE]
-    weight = gains[BASE]
+def wanted_base(state, aims, rate, wanted):
+    """Accelerations by which the base follows its aim, errors dying away without overshoot, into the first six of `wanted`."""
     for a in range(3):
-        wanted = aims.acceleration[a] + 2.0 * rate * (aims.velocity[a] - state.speed[a])
-        wanted += rate * rate * (aims.position[a] - state.position[a])
-        h[a, a] += weight
-        f[a] -= weight * wanted
-    weight *= gains[ARM] ** 2
+        wanted[a] = aims.acceleration[a] + 2.0 * rate * (aims.velocity[a] - state.speed[a])
+        wanted[a] += rate * rate * (aims.position[a] - state.position[a])
     r, d = state.rotation, aims.rotation
     ex, ey, ez = 0.0, 0.0, 0.0
     for c in range(3):  # half the sum of the cross products of the axes: the sine of the angle about its axis
@@ -61,11 +56,19 @@ def base_tasks(dynamics, state, aims, gains, h, f):
         ez += 0.5 * (r[0, c] * d[1, c] - r[1, c] * d[0, c])
     for a in range(3):
         w = r[0, a] * aims.velocity[3] + r[1, a] * aims.velocity[4] + r[2, a] * aims.velocity[5]
-        wanted = r[0, a] * aims.acceleration[3] + r[1, a] * aims.acceleration[4] + r[2, a] * aims.acceleration[5]
-        wanted += 2.0 * rate * (w - state.speed[3 + a])
-        wanted += rate * rate * (r[0, a] * ex + r[1, a] * ey + r[2, a] * ez)
-        h[3 + a, 3 + a] += weight
-        f[3 + a] -= weight * wanted
+        turn = r[0, a] * aims.acceleration[3] + r[1, a] * aims.acceleration[4] + r[2, a] * aims.acceleration[5]
+        turn += 2.0 * rate * (w - state.speed[3 + a])
+        wanted[3 + a] = turn + rate * rate * (r[0, a] * ex + r[1, a] * ey + r[2, a] * ez)
+
+
+@kernel
+def base_tasks(state, aims, gains, h, f):
+    """The base follows its aim; the first of all tasks."""
+    wanted_base(state, aims, gains[BASE_RATE], f)
+    for a in range(FREE):
+        weight = gains[BASE] * (1.0 if a < 3 else gains[ARM] ** 2)
+        h[a, a] += weight
+        f[a] *= -weight
 
 
 @kernel
@@ -172,7 +175,7 @@ def write_programme(tree, state, dynamics, aims, limits, gains, programme):
         for j in range(n):
             a[i, j] = 0.0
         sense[n + i] = 0
-    base_tasks(dynamics, state, aims, gains, h, f)
+    base_tasks(state, aims, gains, h, f)
     tip_tasks(dynamics, aims, gains, h, f)
     joint_tasks(tree, state, aims, limits, gains, programme, h)
     for i in range(nv):

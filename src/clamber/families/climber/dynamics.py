@@ -51,6 +51,10 @@ class ClimberDynamics(Dynamics):
     past = "climbed"
     compiled = (CLIMBING,)
 
+    def unused(self, work: LimbedTask) -> frozenset[str]:
+        """Laws of a whole body in space."""
+        return frozenset({"law", "against_law"})
+
     def check(self, work: LimbedTask, asked: Conditions) -> None:
         """Plant, noise and faults."""
         flaws = climbing_flaws(climbing_task(work), asked.plant)

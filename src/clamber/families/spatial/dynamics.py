@@ -10,11 +10,12 @@ from ...family import NotOfFamilyError, family_of
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
 from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from .control.laws import USUAL, body_law
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
 from .trials.planning import found_plan, replanner
-from .trials.run_plan import SpatialRun, run_plan
+from .trials.run_plan import Control, SpatialRun, run_plan
 from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 
 if TYPE_CHECKING:
@@ -45,7 +46,8 @@ class SpatialDynamics(Dynamics):
     past = "carried out"
 
     def check(self, work: SpatialTask, asked: Conditions) -> None:
-        """Plant and noise; there are no faults."""
+        """Plant, noise and law; there are no faults."""
+        body_law(asked.law or USUAL)
         read_spatial_flaws(asked.plant)
         _noise(asked)
         if isinstance(asked, TrialsRequest) and asked.faults:
@@ -72,7 +74,7 @@ class SpatialDynamics(Dynamics):
             deviations=noise.deviations(work.robot, work.world, asked.seed) if noise.any else None,
             progress=told,
             log=asked.log,
-            replan=replanner(asked, events, asked.seed),
+            control=Control(asked.law or USUAL, replanner(asked, events, asked.seed)),
             label=label,
         )
 
@@ -113,6 +115,7 @@ class SpatialDynamics(Dynamics):
             task=work,
             noise=_noise(asked),
             plant=tuple(asked.plant),
+            law=asked.law or USUAL,
             plan=plan,
             planned=plan is None,
             search=Conditions(planner=asked.planner, plan_seconds=asked.plan_seconds, replan=asked.replan),

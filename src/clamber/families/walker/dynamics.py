@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 Work: TypeAlias = Walk | WalkerTask
-CLIMBS_ONLY: Final = frozenset({"peg_error", "replan", "plant", "force"})
+CLIMBS_ONLY: Final = frozenset({"peg_error", "replan", "plant", "force", "law", "against_law"})
 """Options that neither walks nor plans of walkers have a use for."""
 PLANS_ONLY: Final = frozenset({"task", "planner", "seconds", "save_plan"})
 """Options that a walk has no use for, as it needs no plan."""

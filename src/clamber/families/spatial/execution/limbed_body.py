@@ -1,4 +1,4 @@
-"""A robot in space under whole-body control: a tick, and what its limbs hold on to as it believes."""
+"""A robot in space under a law of its whole body: a tick, and what its limbs hold on to as it believes."""
 
 import math
 from collections.abc import Callable
@@ -6,13 +6,13 @@ from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.law import WholeBody
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
 from ....control.whole_body.tree import FREE, Dynamics, State
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
+from ..control.laws import USUAL, body_law
 from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World
@@ -57,6 +57,7 @@ class LimbedBody:
         pace: How quickly it moves.
         lift: Height of swinging tips over their holds [m].
         gains: Of its law; None: the usual ones for its size.
+        law: Its name, of `BODY_LAWS`.
     """
 
     def __init__(
@@ -68,11 +69,12 @@ class LimbedBody:
         pace: Pace,
         lift: float,
         gains: Gains | None = None,
+        law: str = USUAL,
     ) -> None:
         self.robot, self.world, self.plant, self.belief = robot, world, plant, belief
         self.pace, self.lift = pace, lift
         tree = believed_tree(robot, world.gravity)
-        self.law = WholeBody(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
+        self.law = body_law(law)(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
         self.holds: Ints = np.full(limbs, -1, np.int32)

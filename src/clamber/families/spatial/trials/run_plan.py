@@ -14,6 +14,7 @@ from ....json_form import HIDDEN, INLINE, Jsonable, Key
 from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ..control.believed_tree import believed_tree
+from ..control.laws import USUAL
 from ..execution.carrying import Carrying, Replan
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
@@ -66,6 +67,38 @@ class SpatialRun(Jsonable, Pictured):
         return self.report.reason
 
 
+@dataclass(frozen=True, slots=True)
+class Control:
+    """Who controls a run."""
+
+    law: str = USUAL
+    """Of the whole body, by name."""
+    replan: Replan | None = None
+    """Makes another plan for the rest of a task where a hold cannot be had; None: none is made."""
+
+
+def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[TracedBody] = TracedBody) -> TracedBody:
+    """The robot of a run, which estimates where it is.
+
+    Args:
+        task: Robot and world, as believed.
+        plant: What moves.
+        law: Of the whole body, by name.
+        kind: Class of the body.
+    """
+    sensors = plant.flaws
+    belief = EstimatedBase(
+        task.robot,
+        task.world,
+        believed_tree(task.robot, task.world.gravity),
+        plant.period,
+        late=sensors.late * plant.period,
+        coarse=sensors.encoder_step > 0.0,
+        play=sensors.backlash,
+    )
+    return kind(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift, law=law)
+
+
 def run_plan(
     task: SpatialTask,
     plan: Plan,
@@ -74,7 +107,7 @@ def run_plan(
     deviations: Deviations | None = None,
     progress: Callable[[int, int], None] | None = None,
     log: Path | WantedLog | None = None,
-    replan: Replan | None = None,
+    control: Control = Control(),
     label: str = "plan",
 ) -> SpatialRun:
     """Carry a plan out.
@@ -86,29 +119,19 @@ def run_plan(
         deviations: How robot and world truly are; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
         log: An .mcap file that grows as the robot moves (`execution.log_stream`).
-        replan: Makes another plan for the rest of the task where a hold cannot be had; None: none is made.
+        control: Law, and who plans again.
         label: What errors call the plan.
 
     Raises:
-        ClamberError: If an action is none of the task's.
+        ClamberError: If an action is none of the task's, or no law has that name.
     """
     began = time.perf_counter()
     course = Course.of(task, plan, label)
     plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
-    sensors = plant.flaws
-    belief = EstimatedBase(
-        task.robot,
-        task.world,
-        believed_tree(task.robot, task.world.gravity),
-        plant.period,
-        late=sensors.late * plant.period,
-        coarse=sensors.encoder_step > 0.0,
-        play=sensors.backlash,
-    )
-    body = TracedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
+    body = body_of(task, plant, control.law)
     scene = space_scene(task, true="base x true [m]" in body.titles)
     with growing_log(log, body.samples, body.titles, body.named.notes(), TOPIC, scene) as finish:
-        report = Sequencer(Carrying(body, task, course, replan), progress=progress).run()
+        report = Sequencer(Carrying(body, task, course, control.replan), progress=progress).run()
         notes = report.to_json() | {"task": task.name}
         gap = finish(notes)
     return SpatialRun(

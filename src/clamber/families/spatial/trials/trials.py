@@ -15,11 +15,12 @@ from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
+from ..control.laws import USUAL
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
 from .noise import SpatialNoise
 from .planning import replanner
-from .run_plan import SpatialRun, run_plan
+from .run_plan import Control, SpatialRun, run_plan
 
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
@@ -72,7 +73,7 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
         deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
         progress=lambda action, of: tell(f"action {action} of {of}", action / of),
-        replan=replanner(search, RunEvents(note=tell), seed),
+        control=Control(item["law"], replanner(search, RunEvents(note=tell), seed)),
     )
 
 
@@ -109,6 +110,8 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     noise: SpatialNoise
     plant: tuple[str, ...] = ()
     """Settings of the plant, such as "friction=50%"."""
+    law: str = USUAL
+    """Of the whole body, by name."""
     plan: Plan | None = None
     planned: bool = False
     """Whether a planner made the plan, so that it is no part of what was asked for."""
@@ -137,7 +140,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
         return f"runs of '{self.name}'"
 
     def about(self) -> Json:
-        """Task, plant, noise, and the plan if it was asked for."""
+        """Task, plant, noise, law, and the plan if it was asked for."""
         return self._plain() | {"plan": None if self.plan is None or self.planned else self.plan.to_json()}
 
     def item(self, seed: int) -> Json:
@@ -155,6 +158,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
             "document": self.task.document,
             "plant": list(self.plant),
             "noise": self.noise.to_json(),
+            "law": self.law,
             "search": search,
         }
 

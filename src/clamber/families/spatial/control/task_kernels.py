@@ -1,0 +1,188 @@
+"""Tasks met one after the other in the null space of those before, and wrenches shared among contacts; for laws without a programme."""
+
+import math
+
+from ....compiled import inlined, kernel
+from ....control.whole_body.programme import ARM, HOLDS, SWING_RATE
+from ....control.whole_body.tree import FREE
+
+NEAR = 0.03
+"""A task of which less than this is left by those before it is met with damping, ever less the less is left [-]."""
+NOTHING = 1e-4
+"""Less than this is nothing [-]."""
+RIDGE = 1e-10
+"""Of the base's equations, so that contacts on one line can be shared among, too [-]."""
+
+
+@inlined
+def meet(basis, count, row, wanted, y):
+    """Change `y` so that `row . y` becomes `wanted`, across the directions of `basis`, of which it becomes one; returns their number.
+
+    Damping near what is left of nothing is that of Maciejewski and Klein (1988): it begins at `NEAR`.
+    """
+    n, whole, value = row.size, 0.0, wanted
+    for i in range(n):
+        whole += row[i] * row[i]
+        value -= row[i] * y[i]
+    for k in range(count):
+        along = 0.0
+        for i in range(n):
+            along += basis[k, i] * row[i]
+        for i in range(n):
+            row[i] -= along * basis[k, i]
+    rest = 0.0
+    for i in range(n):
+        rest += row[i] * row[i]
+    if count == basis.shape[0] or rest <= NOTHING * NOTHING * whole:
+        return count
+    damping = max(0.0, NEAR * NEAR * whole - rest)
+    length = math.sqrt(rest)
+    for i in range(n):
+        basis[count, i] = row[i] / length
+        y[i] += basis[count, i] * value * length / (rest + damping)
+    return count + 1
+
+
+@inlined
+def solve_lower(lower, x):
+    """`lower x' = x`, in place."""
+    for i in range(x.size):
+        for j in range(i):
+            x[i] -= lower[i, j] * x[j]
+        x[i] /= lower[i, i]
+
+
+@kernel
+def factor(mass, lower):
+    """Cholesky factor of a mass matrix."""
+    n = mass.shape[0]
+    for i in range(n):
+        for j in range(i + 1):
+            total = mass[i, j]
+            for k in range(j):
+                total -= lower[i, k] * lower[j, k]
+            lower[i, j] = math.sqrt(total) if i == j else total / lower[j, j]
+
+
+@inlined
+def tip_error(dynamics, aims, gains, limb, a):
+    """Acceleration by which a swinging tip follows its path along a world axis, its bias taken off [m/s^2]."""
+    rate = gains[SWING_RATE]
+    wanted = aims.tip_acceleration[limb, a] + rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a])
+    return wanted + 2.0 * rate * (aims.tip_velocity[limb, a] - dynamics.tip_speed[limb, a])
+
+
+@inlined
+def points(aims, limb):
+    """Whether an end effector is to point somewhere."""
+    d = aims.points[limb]
+    return d[0] != 0.0 or d[1] != 0.0 or d[2] != 0.0
+
+
+@inlined
+def turn_error(dynamics, aims, limb, axis):
+    """Sine of the angle about the end effector's x or y (`axis` 0 or 1) by which its z misses where it is to point [-]."""
+    turn, d = dynamics.tip_turn[limb], aims.points[limb]
+    ex = turn[1, 2] * d[2] - turn[2, 2] * d[1]
+    ey = turn[2, 2] * d[0] - turn[0, 2] * d[2]
+    ez = turn[0, 2] * d[1] - turn[1, 2] * d[0]
+    return turn[0, axis] * ex + turn[1, axis] * ey + turn[2, axis] * ez
+
+
+@inlined
+def turn_row(dynamics, limb, axis, row):
+    """Angular velocity of an end effector about its x or y by generalised speeds, into `row`."""
+    turn, jacobian = dynamics.tip_turn[limb], dynamics.jacobian[limb]
+    for i in range(row.size):
+        row[i] = turn[0, axis] * jacobian[3, i] + turn[1, axis] * jacobian[4, i] + turn[2, axis] * jacobian[5, i]
+
+
+@inlined
+def about(dynamics, limb, axis, motion):
+    """Component of an angular motion (from 3 on) of a tip about its end effector's x or y."""
+    turn = dynamics.tip_turn[limb]
+    return turn[0, axis] * motion[3] + turn[1, axis] * motion[4] + turn[2, axis] * motion[5]
+
+
+@kernel
+def share_wrenches(dynamics, aims, gains, room, gravity):
+    """Wrenches of the contacts, nearest to the wanted ones, that bear the first six of `room.forces`; whether any contact bears.
+
+    Weighted least squares: moments count per arm, and a contact whose cap is below the robot's weight takes the less of what is shared.
+    The choice among the wrenches that balance is free (Righetti et al. 2013); no contact's limits are looked at.
+    """
+    balance, columns, wrenches, arm = room.balance, room.columns, room.wrenches, gains[ARM]
+    weight = dynamics.mass[0, 0] * gravity
+    for a in range(FREE):
+        for b in range(FREE):
+            balance[a, b] = 0.0
+        balance[a, FREE] = room.forces[a]
+    some = False
+    for turned in range(2):  # first the equations, then the wrenches
+        for limb in range(aims.does.size):
+            if turned == 0:
+                for c in range(6):
+                    holds = aims.does[limb] == HOLDS and c < aims.components[limb]
+                    wrenches[limb, c] = aims.wrench[limb, c] if holds else 0.0
+            if aims.does[limb] != HOLDS or aims.cap[limb] <= 0.0:
+                continue
+            some = True
+            jacobian, frame = dynamics.jacobian[limb], aims.frame[limb]
+            part = min(1.0, aims.cap[limb] / weight)
+            for c in range(aims.components[limb]):
+                first, axis = (0, c) if c < 3 else (3, c - 3)
+                one = part * part * (1.0 if c < 3 else arm * arm)
+                column = columns[c]
+                for a in range(FREE):
+                    column[a] = 0.0
+                    for b in range(3):
+                        column[a] += jacobian[first + b, a] * frame[axis, b]
+                if turned == 0:
+                    for a in range(FREE):
+                        balance[a, FREE] -= column[a] * aims.wrench[limb, c]
+                        for b in range(FREE):
+                            balance[a, b] += one * column[a] * column[b]
+                else:
+                    for a in range(FREE):
+                        wrenches[limb, c] += one * column[a] * balance[a, FREE]
+        if turned == 0:
+            for a in range(FREE):
+                balance[a, a] += RIDGE * (1.0 if a < 3 else arm * arm)
+            solve_balance(balance)
+    return some
+
+
+@kernel
+def solve_balance(balance):
+    """The six equations of `Room.balance`, whose matrix is symmetric and positive; the solution takes the place of the right side."""
+    for i in range(FREE):
+        for j in range(i + 1):
+            total = balance[i, j]
+            for k in range(j):
+                total -= balance[i, k] * balance[j, k]
+            balance[i, j] = math.sqrt(max(total, 1e-300)) if i == j else total / balance[j, j]
+    for i in range(FREE):
+        for j in range(i):
+            balance[i, FREE] -= balance[i, j] * balance[j, FREE]
+        balance[i, FREE] /= balance[i, i]
+    for i in range(FREE - 1, -1, -1):
+        for j in range(i + 1, FREE):
+            balance[i, FREE] -= balance[j, i] * balance[j, FREE]
+        balance[i, FREE] /= balance[i, i]
+
+
+@kernel
+def bear(dynamics, aims, limits, room):
+    """Torques that are left of `room.forces` when contacts bear `room.wrenches`, within the motors' limits."""
+    for limb in range(aims.does.size):
+        if aims.does[limb] != HOLDS:
+            continue
+        jacobian, frame = dynamics.jacobian[limb], aims.frame[limb]
+        for c in range(aims.components[limb]):
+            first, axis = (0, c) if c < 3 else (3, c - 3)
+            for b in range(3):
+                force = frame[axis, b] * room.wrenches[limb, c]
+                for i in range(FREE, room.forces.size):
+                    room.forces[i] -= jacobian[first + b, i] * force
+    for k in range(room.torques.size):
+        room.torques[k] = min(limits.torque[k], max(-limits.torque[k], room.forces[FREE + k]))
