@@ -8,9 +8,9 @@ import numpy as np
 
 from ..control.chain import Chain
 from ..control.controller import still_aim
-from ..control.records import AIM, AXES, REPORT
+from ..control.records import AXES, REPORT
 from ..types import Floats, Records
-from .log import Log, LogError
+from .log import Log
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -134,32 +134,6 @@ def _finite(trace: LimbTrace, item: int) -> LimbTrace:
     return trace.first(int(odd[0])) if odd.size else trace
 
 
-def log_trace(log: Log, chain: Chain) -> LimbTrace:
-    """The trace that `trace_log` made a log of, with a batch of one.
-
-    Raises:
-        LogError: If the log lacks a column of one of the chain's joints.
-    """
-    ticks = log.rows
-    aims, reports = np.empty((ticks, 1), AIM), np.zeros((ticks, 1), REPORT)
-    aims[:] = still_aim((0.0, 0.0))
-    _fill(log, "aim", aims[:, 0])
-    _fill(log, "report", reports[:, 0])
-    parts: dict[str, Floats] = {key: np.empty((ticks, 1, 2, chain.n)) for key in ("sensed", "true")}
-    parts |= {key: np.empty((ticks, 1, chain.n)) for key, _ in _TORQUES}
-    for j, joint in enumerate(chain.joint_names):
-        for key, which, word, _ in _STATES:
-            parts[key][:, 0, which, j] = log.column(f"{joint} {word}")
-        for key, word in _TORQUES:
-            parts[key][:, 0, j] = log.column(f"{joint} {word}")
-    wrenches = np.zeros((ticks, 1, AXES))
-    for k, axis in enumerate(_AXES):
-        if f"wrench {axis}" in log.columns:
-            wrenches[:, 0, k] = log.columns[f"wrench {axis}"]
-    time = np.asarray(log.column("time"), dtype=np.float64)
-    return LimbTrace(chain=chain, time=time, aims=aims, wrenches=wrenches, reports=reports, **parts)
-
-
 def _cells(label: str, records: Records, rest: Any) -> list[tuple[str, Any, float]]:
     """Every number of a list of records: its column's name, its values, what it is at rest."""
     out = []
@@ -171,17 +145,3 @@ def _cells(label: str, records: Records, rest: Any) -> list[tuple[str, Any, floa
                 (name, records[field][(slice(None), *place)], float(rest[field][place] if shape else rest[field]))
             )
     return out
-
-
-def _fill(log: Log, label: str, records: Records) -> None:
-    for name, values, _ in _cells(label, records, records[0]):
-        if name in log.columns:
-            if records.dtype.names and np.issubdtype(values.dtype, np.integer):
-                _check_whole(log, name)
-            values[:] = log.columns[name]
-
-
-def _check_whole(log: Log, name: str) -> None:
-    odd = np.flatnonzero(log.columns[name] != np.round(log.columns[name]))
-    if odd.size:
-        raise LogError(log.label, name, int(odd[0]) + 1, log.columns[name][odd[0]], "must be a whole number")
