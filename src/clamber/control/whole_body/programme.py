@@ -19,7 +19,7 @@ from .tree import Tree
 FREE_LIMB, SWINGS, HOLDS = range(3)
 """What a limb does: nothing but come to rest, follow a path with its tip, or hold on."""
 ENDLESS: Final = 1e30
-"""What the solver takes for no bound."""
+"""The solver's no bound."""
 
 
 class Aims(NamedTuple):

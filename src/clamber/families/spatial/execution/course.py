@@ -94,7 +94,7 @@ Motion: TypeAlias = BodyMotion | Regrab
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """What a plan asks for, in order."""
+    """What a plan asks for."""
 
     start: Standing
     motions: tuple[Motion, ...]

@@ -138,7 +138,7 @@ def mark_region(p, start, slack, low, count, region, pose):
 
 @kernel
 def list_poses(p, low, count, region, poses):
-    """Write every pose of the region."""
+    """Write all poses of a region."""
     for index in range(region.shape[0]):
         q = region[index]
         if q < 0:

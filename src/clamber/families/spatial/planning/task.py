@@ -254,4 +254,4 @@ FILES: Final = TaskFormat(
     task_keys=field_names(SpatialTaskSpec),
     robot_keys=(*field_names(RobotSpec), "contacts"),
 )
-"""How files of robots in space are read."""
+"""How robots' files are read."""

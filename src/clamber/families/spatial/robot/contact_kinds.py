@@ -216,7 +216,7 @@ class Magnet:
     radius: PositiveLength
     """Of the pole face: the lever of the moment that peels it off is that of the square in it [m]."""
     gap: NonNegativeLength = 0.0
-    """Between pole face and steel [m]."""
+    """From face to steel [m]."""
     quarter_gap: PositiveLength
     """Gap across which a quarter of the pull is left: the pull falls by the square of `gap / quarter_gap + 1` [m]."""
     tilt: ConeAngle

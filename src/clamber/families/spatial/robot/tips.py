@@ -14,7 +14,7 @@ from .tree import Joint, Link, Posture, Site, Tree, turn
 ENDS: Final = re.compile(
     r"foot|feet|toe|sole|tip|hand|palm|grip|tool|flange|(^|[_-])(ee|eef|tcp)([_-]|$)|wrist|fist|hook|clamp|magnet", re.I
 )
-"""Names of frames at the ends of limbs."""
+"""Names of frames at tips."""
 SENSES: Final = re.compile(r"imu|cam|sens|force|(^|[_-])ft([_-]|$)|rotor|optical|joint|protector|finger", re.I)
 """Names of frames that are no ends."""
 SEGMENT: Final = 0.25
