@@ -235,6 +235,16 @@ def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
 
 
 @pytest.mark.slow
+def test_a_hexapod_goes_up_its_chimney_to_the_end() -> None:
+    """Feet that press both walls with nine tenths of the torques: one that leaves its wall as it is loaded would end it."""
+    task = load_task("chimney-hexapod")
+    assert isinstance(task, SpatialTask)
+    run = run_plan(task, plan_task(task, "auto").plan)
+    assert run.done, run.reason
+    assert run.report.off < 0.1 * Pace.of(task.robot).size
+
+
+@pytest.mark.slow
 def test_what_fails_to_attach_is_tried_again() -> None:
     task, plan = first_steps("wall-gripper")
     run = run_plan(task, plan, flaws=SpatialFlaws(miss=0.5, seed=1))

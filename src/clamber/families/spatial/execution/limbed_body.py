@@ -84,6 +84,8 @@ class LimbedBody:
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
         self._open, self._felt = np.zeros(limbs, np.int64), np.zeros(limbs, np.int64)
+        self.fading = -1
+        """The limb whose load fades before it lets go; -1: none."""
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
@@ -248,7 +250,11 @@ class LimbedBody:
 
     def _stands(self, limb: int) -> bool:
         """Whether a limb stands on its hold by friction alone, and is to go on doing so."""
-        return bool(self._pushing[limb]) and math.isinf(float(self.law.aims.cap[limb]))
+        return bool(self._pushing[limb]) and limb != self.fading
+
+    def seeks(self, limb: int) -> bool:
+        """Whether a limb that was to stand on its hold is in the air, and feels for it."""
+        return not math.isnan(self._sought[limb])
 
     def _feel_holds(self) -> None:
         """Notice what has come off, and have feet that were lifted off their holds find them again."""
@@ -256,10 +262,10 @@ class LimbedBody:
             if hold < 0 or (self._pushing[limb] and not self._stands(limb)):
                 self._open[limb] = 0
                 continue
-            felt = self.sensed.closed[limb] if self.attaches(limb) else self.feels(limb)
-            if not math.isnan(self._sought[limb]):
-                self._seek(limb, hold, bool(felt))
+            if self.seeks(limb):
+                self._seek(limb, hold)
                 continue
+            felt = self.sensed.closed[limb] if self.attaches(limb) else self._felt[limb]
             self._open[limb] = 0 if felt else self._open[limb] + 1
             if self.attaches(limb) and self._open[limb] == OPEN:
                 self._open[limb] = 0
@@ -273,9 +279,9 @@ class LimbedBody:
         """Whether a foot feels what it stands on: one reading may be noise, a few in a row are not."""
         return int(self._felt[limb]) >= FELT
 
-    def _seek(self, limb: int, hold: int, felt: bool) -> None:
+    def _seek(self, limb: int, hold: int) -> None:
         """Feel on along the inward normal for what a foot stood on."""
-        if felt:
+        if self.feels(limb):
             self.hold_on(limb, hold)
             return
         inward, step = -self.world.normals[hold], self.pace.approach * self.plant.period

@@ -58,12 +58,17 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int, *, fading: bool) -> 
     aims.velocity[:] = aims.acceleration[:] = 0.0
     before = body.loads.copy()
     most = float(np.abs(before if fading else loads).max()) + body.pace.weight
-    count = max(1, round(body.pace.shift / body.plant.period))
-    for k in range(1, count + 1):
-        share = quintic(k / count)[0]
-        body.loads[:] = before + share * (loads - before)
-        aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
-        body.tick()
+    count, k = max(1, round(body.pace.shift / body.plant.period)), 0
+    body.fading = limb if fading else -1
+    try:
+        while k < count:
+            k += not body.seeks(limb)  # what has left its ground again is loaded once it is back
+            share = quintic(k / count)[0]
+            body.loads[:] = before + share * (loads - before)
+            aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
+            body.tick()
+    finally:
+        body.fading = -1
     if not fading:
         aims.cap[limb] = math.inf
 
