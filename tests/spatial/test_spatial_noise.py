@@ -104,5 +104,6 @@ def ended(seed: int, reason: str) -> SpatialTrial:
         off=0.0,
         lost=None,
         breaks=0,
+        replans=0,
         wall_seconds=1.0,
     )

@@ -13,6 +13,7 @@ import numpy as np
 from ....control.whole_body.law import BodyLaw
 from ....control.whole_body.programme import HOLDS, SWINGS
 from ....control.whole_body.tree import FREE, State
+from ....regular_files import write_atomically
 from ....types import Floats
 
 Tick: TypeAlias = Callable[[int], Floats]
@@ -55,7 +56,7 @@ def urdf_of(law: BodyLaw) -> str:
 def _urdf_file(law: BodyLaw) -> Iterator[Path]:
     with TemporaryDirectory() as folder:
         file = Path(folder) / "robot.urdf"
-        file.write_text(urdf_of(law))
+        write_atomically(file, urdf_of(law))
         yield file
 
 
