@@ -14,7 +14,7 @@ from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, joint_seconds, regrab, rest
+from clamber.families.spatial.execution.motions import SPEED, joint_seconds, regrab, rest, share_loads
 from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
 from clamber.families.spatial.execution.run_trace import RunTrace
 from clamber.families.spatial.execution.settings import Pace
@@ -214,6 +214,29 @@ def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -
     assert body.tips[limb] == pytest.approx(end, abs=0.01 * body.pace.size)
 
 
+def test_a_foot_in_the_air_lets_go_as_any_other() -> None:
+    """It is still felt for when its load is to fade, which must not wait for ground that it may never feel."""
+    task, start, limb = without_load("stones-quadruped")
+    body = standing_body(task, start)
+    first, end = body.joints_of(limb)
+    normal = task.world.normals[int(start.holds[limb])]
+    along = normal @ body.law.dynamics.jacobian[limb, :3, FREE + first : FREE + end]
+    bent = start.joints.copy()
+    bent[first:end] += 0.5 * body.pace.depth * along / (along @ along)
+    body = standing_body(task, replace(start, joints=bent))
+    while not body.seeks(limb):
+        body.tick()
+    began = body.time
+
+    def look() -> None:
+        assert body.time < began + 2.0 * body.pace.shift
+
+    body.told = look
+    share_loads(body, start.loads, limb, fading=True)
+    body.let_go(limb)
+    assert not body.seeks(limb)
+
+
 def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
     """A reading in twenty is above what a foot stands at: each swing would end in the air by one of them."""
     task, plan = first_steps("rubble-hexapod", grabs=1)
@@ -232,6 +255,17 @@ def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
     swung = len(stands) - stands[::-1].index(False)
     assert stands[swung:], "it was taken for landed in the air"
     assert sum(stands[swung:]) * body.plant.period > 0.5 * body.pace.shift
+
+
+@pytest.mark.parametrize("strength", [0.02, 0.1, 0.2, 0.3])
+def test_a_robot_whose_holds_all_give_way_ends_with_a_reason(strength: float) -> None:
+    """At once, or one after the other as what is left takes over their loads."""
+    task, plan = first_steps("ceiling-gripper")
+    weak = Deviations.none(task.robot, task.world)
+    run = run_plan(task, plan, deviations=replace(weak, strengths=strength * weak.strengths))
+    assert not run.done
+    assert run.reason
+    assert run.broken
 
 
 @pytest.mark.slow

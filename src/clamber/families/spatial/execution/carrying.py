@@ -6,7 +6,7 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, ending_of
+from ....execution.run_report import BRACED, SETTLED, Ending, FallenError, Outcome, ending_of
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
 from ....types import Floats
@@ -55,7 +55,11 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def begin(self) -> None:
         """See `Performer`: the robot is put on its holds and stands."""
         self.body.start(self.course.start)
-        rest(self.body, AT_FIRST)
+        try:
+            rest(self.body, AT_FIRST)
+        except LostHoldError as lost:
+            name = self.body.robot.limb_names[lost.limb]
+            raise FallenError(f"{name} came off hold {lost.hold + 1} before anything was to move") from None
 
     def next(self) -> Motion | None:
         """See `Performer`."""
@@ -102,11 +106,17 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def _catch(self, off: LostHoldError, action: Motion) -> Landing:
         """Have a limb that came off hold on again, those that come off meanwhile, too."""
         loads = action.loads if isinstance(action, Regrab) and self.body.holds[action.limb] < 0 else action.start.loads
-        try:
-            return retake(self.body, off, loads)
-        except LostHoldError as other:
-            first = self._catch(other, action)
-            return retake(self.body, off, loads) if first.taken else first
+        waiting = [off]
+        for _ in range(MOST_LOST):
+            try:
+                landing = retake(self.body, waiting[-1], loads)
+            except LostHoldError as other:
+                waiting.append(other)
+                continue
+            waiting.pop()
+            if not waiting or not landing.taken:
+                return landing
+        return Landing(False, math.nan, MOST_LOST, "others came off meanwhile")
 
     def record(self, action: Motion, attempt: Attempt) -> None:
         """See `Performer`."""

@@ -83,15 +83,21 @@ class LimbedBody:
         """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
-        self._open, self._felt = np.zeros(limbs, np.int64), np.zeros(limbs, np.int64)
+        self._open = np.zeros(limbs, np.int64)
+        self._felt = np.zeros(limbs, np.int64)
+        """Readings in a row above `touch`, shape (limbs,)."""
         self.fading = -1
         """The limb whose load fades before it lets go; -1: none."""
         self.ticks = 0
         self.told: Callable[[], None] | None = None
         """Called after each tick."""
-        self._pressed, self._push = np.zeros((limbs, 3)), np.zeros(limbs)
+        self._pressed = np.zeros((limbs, 3))
+        """Normals that limbs press against, shape (limbs, 3)."""
+        self._push = np.zeros(limbs)
         self._sought = np.full(limbs, math.nan)
-        self._ahead, self._ahead_work = State.of(tree), Dynamics.of(tree)
+        """How deep feet in the air have felt [m]."""
+        self._ahead = State.of(tree)
+        self._ahead_work = Dynamics.of(tree)
         self._bears = [end.bears() for end in robot.ends]
         self._pushing = np.array([not self.attaches(limb) for limb in range(limbs)])
 
@@ -115,7 +121,7 @@ class LimbedBody:
         return self._bears[limb].capture > 0.0
 
     def start(self, at: Standing) -> None:
-        """Put it on its holds."""
+        """Put the robot on its holds."""
         self.plant.reset(at.pose, at.joints, at.holds)
         self.sensed = self.plant.sense()
         self.belief.begin(at.pose, self.sensed)
@@ -156,6 +162,7 @@ class LimbedBody:
 
     def let_go(self, limb: int) -> None:
         """From now on a limb bears nothing."""
+        self.relax(limb)
         self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
         self.loads[limb], self._sought[limb] = 0.0, math.nan
 
@@ -172,19 +179,27 @@ class LimbedBody:
         Returns:
             [rad] or [m], shape (points, joints of the limb).
         """
-        tree, at, work, mine = self.law.tree, self._ahead, self._ahead_work, slice(*self.joints_of(limb))
-        at.rotation[:], at.position[:] = self.law.aims.rotation, self.law.aims.position
-        at.joints[:] = self.law.state.joints
-        started, damping = at.joints[mine].copy(), (SINGULAR * self.pace.size) ** 2
+        law, at, work = self.law, self._ahead, self._ahead_work
+        at.rotation[:] = law.aims.rotation
+        at.position[:] = law.aims.position
+        at.joints[:] = law.state.joints
+        first, last = self.joints_of(limb)
+        mine = at.joints[first:last]
+        wanted = posture[first:last]
+        first, last = FREE + first, FREE + last
+        started = mine.copy()
+        damping = (SINGULAR * self.pace.size) ** 2 * np.eye(3)
         found = np.empty((len(points), len(started)))
         for k, point in enumerate(points):
-            place_bodies(tree, at, work)
-            tip_motion(tree, at, work)
-            jacobian = work.jacobian[limb, :3, FREE:][:, mine]
-            inverse = jacobian.T @ np.linalg.inv(jacobian @ jacobian.T + damping * np.eye(3))
-            lean = started + (k + 1) / len(points) * (posture[mine] - started) - at.joints[mine]
-            at.joints[mine] += inverse @ (point - work.tip[limb] - jacobian @ lean) + lean
-            found[k] = at.joints[mine]
+            place_bodies(law.tree, at, work)
+            tip_motion(law.tree, at, work)
+            jacobian = work.jacobian[limb, :3, first:last]
+            square = jacobian @ jacobian.T + damping
+            share = (k + 1) / len(points)
+            lean = started + share * (wanted - started) - mine
+            missed = point - work.tip[limb] - jacobian @ lean
+            mine += lean + jacobian.T @ np.linalg.solve(square, missed)
+            found[k] = mine
         return found
 
     def swing(self, limb: int, path: tuple[Floats, Floats, Floats], points: Floats | None) -> None:
@@ -242,9 +257,8 @@ class LimbedBody:
         law, stiffness = self.law, self.pace.pressing
         for limb in np.flatnonzero(self._pressed.any(axis=1)).tolist():
             normal = self._pressed[limb]
-            force = self._push[limb] + stiffness * max(
-                0.0, float((law.dynamics.tip[limb] - law.aims.tip[limb]) @ normal)
-            )
+            missed = law.dynamics.tip[limb] - law.aims.tip[limb]
+            force = self._push[limb] + stiffness * max(0.0, float(missed @ normal))
             torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
             np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
 
@@ -284,15 +298,17 @@ class LimbedBody:
         if self.feels(limb):
             self.hold_on(limb, hold)
             return
-        inward, step = -self.world.normals[hold], self.pace.approach * self.plant.period
-        self._sought[limb] += step
+        aims, inward = self.law.aims, -self.world.normals[hold]
+        velocity = self.pace.approach * inward
+        self._sought[limb] += self.pace.approach * self.plant.period
         if self._sought[limb] > self.pace.depth:
-            self.relax(limb)
             self.let_go(limb)
             raise LostHoldError(limb, hold)
-        before = self.law.aims.tip[limb] if self.law.aims.does[limb] == SWINGS else self.tips[limb]
+        swings = aims.does[limb] == SWINGS
+        before = aims.tip[limb] if swings else self.tips[limb]
+        aim = before + self.plant.period * velocity
         pointed = inward if self.robot.contacts[limb].aligned else None
-        self.swing(limb, (before + step * inward, self.pace.approach * inward, np.zeros(3)), pointed)
+        self.swing(limb, (aim, velocity, np.zeros(3)), pointed)
 
     def stop(self) -> None:
         """From now on the body is to stay where it is."""

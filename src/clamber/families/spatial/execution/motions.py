@@ -62,7 +62,7 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int, *, fading: bool) -> 
     body.fading = limb if fading else -1
     try:
         while k < count:
-            k += not body.seeks(limb)  # what has left its ground again is loaded once it is back
+            k += fading or not body.seeks(limb)  # what has left its ground again is loaded once it is back
             share = quintic(k / count)[0]
             body.loads[:] = before + share * (loads - before)
             aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
