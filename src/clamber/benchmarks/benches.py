@@ -37,12 +37,11 @@ from .planner_trials import Crew, bench_ablation, bench_seeds, filter_rows, macr
 from .plant_bench import plant_rows
 from .rows import NOTHING, Row, Say, keep_quiet
 from .space_seeds import bench_worlds
-from .space_speed import space_rows
+from .space_speed import law_rows, space_rows
 from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of
 from .walls import wall_rows
-from .whole_body_laws import law_rows
 
 ROUNDS: Final = 15
 """How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""

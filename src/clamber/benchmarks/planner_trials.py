@@ -1,7 +1,7 @@
 """Many seeds of the genetic planner: on every task, with one ingredient off at a time, without filters, with a learned macro."""
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -64,6 +64,30 @@ class Crew:
     resume: bool = False
     progress: Progress | None = None
 
+    def answers(self, work: Callable[[Json], Json], items: Sequence[Json], about: Json, title: str) -> list[Json]:
+        """What every item's work answers, in order.
+
+        Raises:
+            StoreError: If the file can't be the store of these items.
+            ClusterError: If there is no cluster to run on, or it is lost.
+            TrialError: If a work raised, or its workers died.
+        """
+        told: list[Json] = []
+        for outcome in map_items(
+            work,
+            items,
+            executor=self.executor,
+            store=self.store,
+            about=about,
+            title=title,
+            resume=self.resume,
+            progress=self.progress,
+        ):
+            if outcome.result is None:
+                raise TrialError(outcome.error or "")
+            told.append(outcome.result)
+        return told
+
 
 def run_cases(
     cases: Mapping[str, tuple[Task, Profile]], seeds: Iterable[int], crew: Crew | None = None
@@ -76,9 +100,7 @@ def run_cases(
         crew: Who runs them; None: local processes, one a core.
 
     Raises:
-        StoreError: If the crew's file can't be the store of these trials.
-        ClusterError: If there is no cluster to run on, or it is lost.
-        TrialError: If a trial raised, or its workers died.
+        ClamberError: As `Crew.answers`.
     """
     crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
     chosen = tuple(seeds)
@@ -87,21 +109,9 @@ def run_cases(
         for task, profile in cases.values()
         for seed in chosen
     ]
-    outcomes = map_items(
-        run_trial,
-        items,
-        executor=crew.executor,
-        store=crew.store,
-        about={"items": items, "evaluations": EVALUATIONS},
-        title=f"{len(chosen)} seeds each of {', '.join(list(cases)[:3])} ... ({len(cases)} cases)",
-        resume=crew.resume,
-        progress=crew.progress,
-    )
-    told = []
-    for outcome in outcomes:
-        if outcome.result is None:
-            raise TrialError(outcome.error or "")
-        told.append(tuple(outcome.result["told"]))
+    title = f"{len(chosen)} seeds each of {', '.join(list(cases)[:3])} ... ({len(cases)} cases)"
+    answers = crew.answers(run_trial, items, {"items": items, "evaluations": EVALUATIONS}, title)
+    told = [tuple(answer["told"]) for answer in answers]
     rows = [told[k : k + len(chosen)] for k in range(0, len(told), len(chosen))]
     return {label: Trials(*zip(*row, strict=True)) for label, row in zip(cases, rows, strict=True)}
 

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from typing import Final
 
 from ..errors import ClamberError
-from ..jobs import LocalProcesses, map_items
+from ..jobs import LocalProcesses
 from ..planning.auto import plan_auto
 from ..tasks import load_task, task_names
 from ..types import Json
-from .planner_trials import Crew, TrialError
+from .planner_trials import Crew
 from .rows import Row, Say, keep_quiet, median_or_nothing
 
 TASKS: Final = {
@@ -26,7 +26,7 @@ TASKS: Final = {
 }
 """Task -> what is aimed at."""
 SCENES: Final = "scene-"
-"""What names of the scenes begin with."""
+"""What scenes' names begin with."""
 SCENE_AIM: Final = "20 of 20, 3 s"
 WORLDS: Final = tuple(range(20))
 """Seeds of the worlds: 0 is the one that comes with Clamber."""
@@ -75,21 +75,8 @@ def bench_worlds(
     crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
     items: list[Json] = [{"task": name, "seed": seed} for name in names for seed in seeds]
     say(f"{len(names)} tasks in {len(seeds)} worlds each")
-    outcomes = map_items(
-        plan_world,
-        items,
-        executor=crew.executor,
-        store=crew.store,
-        about={"items": items},
-        title=f"{len(seeds)} worlds each of {len(names)} tasks in space",
-        resume=crew.resume,
-        progress=crew.progress,
-    )
-    told = []
-    for outcome in outcomes:
-        if outcome.result is None:
-            raise TrialError(outcome.error or "")
-        told.append(outcome.result)
+    title = f"{len(seeds)} worlds each of {len(names)} tasks in space"
+    told = crew.answers(plan_world, items, {"items": items}, title)
     rows = []
     for k, name in enumerate(names):
         mine = told[k * len(seeds) : (k + 1) * len(seeds)]

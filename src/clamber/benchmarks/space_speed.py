@@ -1,15 +1,20 @@
-"""How fast stances in space are judged, beside HiGHS, jet-leg, hpp-centroidal-dynamics and OMPL on the same stances, in the same run."""
+"""How fast stances in space are judged and laws of a whole body work, beside the field's programs on the same stances and moments."""
 
 import importlib.util
 import time
+from collections.abc import Sequence
 from functools import partial
 from statistics import median
 from typing import Any, Final
 
 import numpy as np
 
+from ..control.whole_body.law import BodyLaw, WholeBody
+from ..families.spatial.control.laws import BODY_LAWS, USUAL
 from ..families.spatial.statics.checks import STANCE_CHECK
 from ..families.spatial.statics.judging import rules_record
+from ..families.spatial.trials.law_rivals import RIVALS, Rival, installed
+from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, try_law
 from .control_speed import round_times
 from .rows import NOTHING, Row, Say, keep_quiet
 from .space_rivals import Verdict, connect, highs, hpp, jet_leg, programme
@@ -32,6 +37,8 @@ GOAL: Final = np.array((0.03, 0.0, 0.01, 0.05))
 """By how much: forward, aside, up [m], turn [rad]."""
 SECONDS: Final = 5.0
 EXTRA: Final = "not installed: pip install 'clamber[rivals]'"
+LAW_TASKS: Final = ("wall-gripper", "stones-quadruped", "corners-magnet")
+"""Whose first steps every law of a whole body is tried on."""
 
 
 def _judge(stances: Stances, n: int, rules: Any) -> None:
@@ -154,3 +161,52 @@ def step_rows(*, steps: int = STEPS, say: Say = keep_quiet) -> list[Row]:
 def space_rows(*, say: Say = keep_quiet) -> list[Row]:
     """All of it."""
     return [*rate_rows(say=say), *highs_rows(say=say), *peer_rows(say=say), *step_rows(say=say)]
+
+
+def _tick_all(laws: Sequence[BodyLaw]) -> None:
+    for law in laws:
+        law.look()
+        law.tick()
+
+
+def _tick_rivals(bodies: Sequence[Rival]) -> None:
+    for body in bodies:
+        body.tick()
+
+
+def law_rows(*, tasks: Sequence[str] = LAW_TASKS, rounds: int = 15, say: Say = keep_quiet) -> list[Row]:
+    """Stand, a move of the body, a regrab and another move by each law; errors as they truly were, ticks on moments of the first run."""
+    rows: list[Row] = []
+    for name in tasks:
+        task = spatial_task(name)
+        plan = first_steps(task)
+        moments: list[Moment] = []
+        for law in BODY_LAWS:
+            say(f"{name}: first steps by {law}")
+            trial, seen = try_law(task, plan, law)
+            moments = seen if law == USUAL else moments
+            said = f"{name}, {law}"
+            rows += [
+                Row(f"{said}: motions carried out ({trial.reason or 'done'})", trial.motions, "motions"),
+                Row(f"{said}: body off its aim, at most", 1e3 * trial.body, "mm"),
+                Row(f"{said}: swinging tip off its path, at most", 1e3 * trial.tip, "mm"),
+                Row(f"{said}: tip that holds slid, at most", 1e3 * trial.slid, "mm"),
+                Row(f"{said}: largest share of a torque", 100.0 * trial.torque, "%"),
+                Row(f"{said}: contacts that came off", trial.off, "contacts"),
+            ]
+        say(f"{name}: ticks")
+        kinds = {law: [law_at(task, moment, law) for moment in moments] for law in BODY_LAWS}
+        works = {law: partial(_tick_all, laws) for law, laws in kinds.items()}
+        missing = []
+        for rival, make in RIVALS.items():
+            if installed(rival):
+                works[rival] = partial(_tick_rivals, [make(law) for law in kinds[USUAL]])
+            else:
+                missing.append(f"{rival} (not installed: pip install 'clamber[{rival}]')")
+        times = np.median(round_times(tuple(works.values()), rounds), axis=0) / len(moments)
+        rows += [Row(f"{name}, {law}: tick", 1e6 * seconds, "us") for law, seconds in zip(works, times, strict=True)]
+        told = [law.told for law in kinds[USUAL] if isinstance(law, WholeBody)]
+        solving = np.median([each["setup_time"] + each["solve_time"] for each in told])
+        rows.append(Row(f"{name}, {USUAL}: of its tick DAQP's", 1e6 * float(solving), "us"))
+        rows += [Row(f"{name}, {rival}", NOTHING, "us") for rival in missing]
+    return rows

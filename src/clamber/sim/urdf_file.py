@@ -77,7 +77,7 @@ class _Writer:
         else:
             below, origin = plain_name(self.model.body(parent).name), place - self.shift[parent]
             if not turning:
-                self._joint(f"{name}_mount", "fixed", below, name, origin, turn)
+                add_joint(self.root, f"{name}_mount", "fixed", below, name, origin, turn)
             for k, j in enumerate(turning):
                 last = k == len(turning) - 1
                 link = name if last else f"{plain_name(self.model.joint(j).name)}_link"
@@ -85,40 +85,23 @@ class _Writer:
                 origin = origin + turn @ (anchor - at)
                 self._moving(j, below, link, origin, turn)
                 if not last:
-                    self._link(link, GRAIN, np.zeros(3), GRAIN_INERTIA * np.eye(3))
+                    add_link(self.root, link, GRAIN, np.zeros(3), GRAIN_INERTIA * np.eye(3))
                     mass -= GRAIN
                 below, at, origin, turn = link, anchor, np.zeros(3), np.eye(3)
         self.shift[number] = at
         about = rotation_of(self.mujoco, model.body_iquat[number])
         inertia = about @ np.diag(model.body_inertia[number]) @ about.T
-        written = self._link(name, mass, model.body_ipos[number] - at, inertia)
+        written = add_link(self.root, name, mass, model.body_ipos[number] - at, inertia)
         first = int(model.body_geomadr[number])
         for k in range(first, first + int(model.body_geomnum[number])):
             self._shape(written, k, at)
-
-    def _link(self, name: str, mass: float, centre: Floats, inertia: Floats) -> ET.Element:
-        link = ET.SubElement(self.root, "link", name=name)
-        inertial = ET.SubElement(link, "inertial")
-        ET.SubElement(inertial, "origin", xyz=numbers(centre), rpy="0 0 0")
-        ET.SubElement(inertial, "mass", value=repr(mass))
-        moments = {f"i{a}{b}": repr(float(inertia["xyz".index(a), "xyz".index(b)])) for a, b in
-                   ("xx", "xy", "xz", "yy", "yz", "zz")}  # fmt: skip
-        ET.SubElement(inertial, "inertia", moments)
-        return link
-
-    def _joint(self, name: str, kind: str, parent: str, child: str, place: Floats, turn: Floats) -> ET.Element:
-        joint = ET.SubElement(self.root, "joint", name=name, type=kind)
-        ET.SubElement(joint, "origin", xyz=numbers(place), rpy=numbers(roll_pitch_yaw(turn)))
-        ET.SubElement(joint, "parent", link=parent)
-        ET.SubElement(joint, "child", link=child)
-        return joint
 
     def _moving(self, j: int, parent: str, child: str, place: Floats, turn: Floats) -> None:
         model, name = self.model, self.model.joint(j).name
         sliding = model.jnt_type[j] == self.mujoco.mjtJoint.mjJNT_SLIDE
         bounds = self.robot.bounds.get(name)
         kind = "prismatic" if sliding else "revolute" if bounds is not None else "continuous"
-        joint = self._joint(plain_name(name), kind, parent, child, place, turn)
+        joint = add_joint(self.root, plain_name(name), kind, parent, child, place, turn)
         ET.SubElement(joint, "axis", xyz=numbers(model.jnt_axis[j]))
         free = JointBounds(-UNKNOWN, UNKNOWN, 0.0, None) if sliding else None
         if (stated := bounds or free) is not None:
@@ -152,7 +135,7 @@ class _Writer:
         ET.SubElement(self.root, "link", name=name)
         place = self.model.site_pos[k] - self.shift[body]
         turn = rotation_of(self.mujoco, self.model.site_quat[k])
-        self._joint(f"{name}_mount", "fixed", plain_name(self.model.body(body).name), name, place, turn)
+        add_joint(self.root, f"{name}_mount", "fixed", plain_name(self.model.body(body).name), name, place, turn)
 
     def _tell_losses(self) -> None:
         model = self.model
@@ -181,6 +164,29 @@ class _Writer:
             self.losses.append(
                 f"largest forces of {', '.join(unstated)}: the robot's file states none; {UNKNOWN:g} here"
             )
+
+
+def add_link(root: ET.Element, name: str, mass: float, centre: Floats, inertia: Floats) -> ET.Element:
+    """Add a link: its mass [kg], centre of mass [m], shape (3,), and inertia about that [kg m^2], shape (3, 3)."""
+    link = ET.SubElement(root, "link", name=name)
+    inertial = ET.SubElement(link, "inertial")
+    ET.SubElement(inertial, "origin", xyz=numbers(centre), rpy="0 0 0")
+    ET.SubElement(inertial, "mass", value=repr(mass))
+    moments = {f"i{a}{b}": repr(float(inertia["xyz".index(a), "xyz".index(b)])) for a, b in
+               ("xx", "xy", "xz", "yy", "yz", "zz")}  # fmt: skip
+    ET.SubElement(inertial, "inertia", moments)
+    return link
+
+
+def add_joint(
+    root: ET.Element, name: str, kind: str, parent: str, child: str, place: Floats, turn: Floats
+) -> ET.Element:
+    """Add a joint between two links, where the child is in its parent [m], shape (3,), and how it is turned, shape (3, 3)."""
+    joint = ET.SubElement(root, "joint", name=name, type=kind)
+    ET.SubElement(joint, "origin", xyz=numbers(place), rpy=numbers(roll_pitch_yaw(turn)))
+    ET.SubElement(joint, "parent", link=parent)
+    ET.SubElement(joint, "child", link=child)
+    return joint
 
 
 def rotation_of(mujoco: Any, quaternion: Floats) -> Floats:

@@ -1,12 +1,12 @@
 """Whole-body control of other software on our trees: placo and TSID, from a URDF that is written of the same masses and joints."""
 
 import importlib.util
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, Final, TypeAlias
+from typing import Any, Final, Protocol
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -14,49 +14,50 @@ from ....control.whole_body.law import BodyLaw
 from ....control.whole_body.programme import HOLDS, SWINGS
 from ....control.whole_body.tree import FREE, State
 from ....regular_files import write_atomically
+from ....sim.urdf_file import add_joint, add_link
 from ....types import Floats
 
-Tick: TypeAlias = Callable[[int], Floats]
-"""Torques at a moment of those that it was made of, by its index, shape (n,)."""
 FRICTION: Final = 0.5
 """Of contacts of both."""
 
 
-def urdf_of(law: BodyLaw) -> str:
+class Rival(Protocol):
+    """Another program's law at a moment."""
+
+    def tick(self) -> Floats:
+        """Torques, shape (n,)."""
+
+
+def urdf_text(law: BodyLaw) -> str:
     """A law's tree as URDF; called b0 ..., j001 ... (joints are sorted by name there), and t0 ... for tips."""
-
-    def origin(place: Floats, turn: Floats) -> str:
-        level = math.hypot(turn[0, 0], turn[1, 0])
-        roll, yaw = math.atan2(turn[2, 1], turn[2, 2]), math.atan2(turn[1, 0], turn[0, 0])
-        if level < 1e-9:  # z turns as x does, and is left alone
-            roll, yaw = math.atan2(-turn[1, 2], turn[1, 1]), 0.0
-        angles = f"{roll!r} {math.atan2(-turn[2, 0], level)!r} {yaw!r}"
-        return f'<origin xyz="{" ".join(map(repr, place.tolist()))}" rpy="{angles}"/>'
-
-    tree, limits, parts = law.tree, law.limits, ['<robot name="tree">']
+    tree, limits = law.tree, law.limits
+    root = ElementTree.Element("robot", name="tree")
     for i, parent in enumerate(tree.parent.tolist()):
-        spin = tree.inertia[i]
-        inertia = " ".join(f'i{"xyz"[a]}{"xyz"[b]}="{float(spin[a, b])!r}"' for a in range(3) for b in range(a, 3))
-        mass = f'{origin(tree.centre[i], np.eye(3))}<mass value="{float(tree.mass[i])!r}"/><inertia {inertia}/>'
-        parts.append(f'<link name="b{i}"><inertial>{mass}</inertial></link>')
-        if i > 0:
-            k, kind = i - 1, "prismatic" if tree.sliding[i] else "revolute"
-            bounds = {"lower": limits.lower, "upper": limits.upper, "velocity": limits.speed, "effort": limits.torque}
-            limit = " ".join(f'{name}="{float(values[k])!r}"' for name, values in bounds.items())
-            ends = f'<parent link="b{parent}"/><child link="b{i}"/><axis xyz="0 0 1"/><limit {limit}/>'
-            parts.append(f'<joint name="j{i:03}" type="{kind}">{origin(tree.offset[i], tree.turn[i])}{ends}</joint>')
+        add_link(root, f"b{i}", float(tree.mass[i]), tree.centre[i], tree.inertia[i])
+        if i == 0:
+            continue
+        kind, k = "prismatic" if tree.sliding[i] else "revolute", i - 1
+        joint = add_joint(root, f"j{i:03}", kind, f"b{parent}", f"b{i}", tree.offset[i], tree.turn[i])
+        ElementTree.SubElement(joint, "axis", xyz="0 0 1")
+        ElementTree.SubElement(
+            joint,
+            "limit",
+            lower=repr(float(limits.lower[k])),
+            upper=repr(float(limits.upper[k])),
+            velocity=repr(float(limits.speed[k])),
+            effort=repr(float(limits.torque[k])),
+        )
     for limb, end in enumerate(tree.end.tolist()):
-        ends = f'<parent link="b{end}"/><child link="t{limb}"/>'
-        parts.append(f'<link name="t{limb}"/><joint name="f{limb}" type="fixed">')
-        parts.append(f"{origin(tree.tip[limb], tree.tip_turn[limb])}{ends}</joint>")
-    return "".join([*parts, "</robot>"])
+        ElementTree.SubElement(root, "link", name=f"t{limb}")
+        add_joint(root, f"f{limb}", "fixed", f"b{end}", f"t{limb}", tree.tip[limb], tree.tip_turn[limb])
+    return ElementTree.tostring(root, encoding="unicode")
 
 
 @contextmanager
 def _urdf_file(law: BodyLaw) -> Iterator[Path]:
     with TemporaryDirectory() as folder:
         file = Path(folder) / "robot.urdf"
-        write_atomically(file, urdf_of(law))
+        write_atomically(file, urdf_text(law))
         yield file
 
 
@@ -72,123 +73,136 @@ def pulls(law: BodyLaw, limb: int) -> bool:
     return bool((law.aims.rows[limb, :count, 0] >= 0.0).all() or (law.aims.limits[limb, :count] > 0.0).all())
 
 
-def placo_tick(laws: Sequence[BodyLaw]) -> Tick:
+class PlacoBody:
     """The `DynamicsSolver` of placo, which solves by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
-    import placo
 
-    def made(law: BodyLaw) -> Callable[[], Floats]:
-        aims, dynamics, n = law.aims, law.dynamics, law.tree.joints
+    def __init__(self, law: BodyLaw) -> None:
+        import placo
+
         with _urdf_file(law) as file:
             robot = placo.RobotWrapper(str(file), placo.Flags.ignore_collisions)
-        for k in range(n):
-            robot.set_rotor_inertia(f"j{k + 1:03}", float(law.tree.rotor[k]))
-            robot.set_gear_ratio(f"j{k + 1:03}", 1.0)
+        names = [f"j{k + 1:03}" for k in range(law.tree.joints)]
+        for name, rotor in zip(names, law.tree.rotor.tolist(), strict=True):
+            robot.set_rotor_inertia(name, rotor)
+            robot.set_gear_ratio(name, 1.0)
         robot.set_gravity(law.tree.gravity)
-        solver = placo.DynamicsSolver(robot)
-        solver.enable_torque_limits(True)
-        base = solver.add_frame_task("b0", _pose(aims.rotation, aims.position))
+        self.robot, self.solver = robot, placo.DynamicsSolver(robot)
+        self.solver.enable_torque_limits(True)
+        base = self.solver.add_frame_task("b0", _pose(law.aims.rotation, law.aims.position))
         base.configure("base", "soft", law.gains.base, law.gains.base)
-        for limb, does in enumerate(aims.does.tolist()):
-            name = f"t{limb}"
-            if does == HOLDS and aims.components[limb] == 6:
-                task = solver.add_frame_task(name, _pose(dynamics.tip_turn[limb], dynamics.tip[limb]))
-                solver.add_fixed_contact(task)
-            elif does == HOLDS:
-                contact = solver.add_point_contact(solver.add_position_task(name, dynamics.tip[limb]))
-                contact.mu, contact.unilateral = FRICTION, not pulls(law, limb)
-                contact.R_world_surface = aims.frame[limb, (1, 2, 0)].T  # its z is the normal
-            elif does == SWINGS:
-                solver.add_position_task(name, aims.tip[limb]).configure(name, "soft", law.gains.swing)
-        joints = solver.add_joints_task()
-        posture = {f"j{k + 1:03}": float(aims.posture[k]) for k in range(n)}
-        joints.set_joints(posture)
+        for limb in range(law.tree.limbs):
+            self._add_limb(law, limb)
+        joints = self.solver.add_joints_task()
+        joints.set_joints(dict(zip(names, law.aims.posture.tolist(), strict=True)))
         joints.configure("posture", "soft", law.gains.posture)
-        q, v = _pinocchio_state(law.state)
+        self.q, self.v = _pinocchio_state(law.state)
 
-        def tick() -> Floats:
-            robot.state.q, robot.state.qd = q, v
-            robot.update_kinematics()
-            torques: Floats = solver.solve().tau[FREE:]
-            return torques
+    def _add_limb(self, law: BodyLaw, limb: int) -> None:
+        """A limb's contact, or the way of its tip."""
+        aims, dynamics, solver = law.aims, law.dynamics, self.solver
+        name, does = f"t{limb}", aims.does[limb]
+        if does == HOLDS and aims.components[limb] == 6:
+            pose = _pose(dynamics.tip_turn[limb], dynamics.tip[limb])
+            solver.add_fixed_contact(solver.add_frame_task(name, pose))
+        elif does == HOLDS:
+            task = solver.add_position_task(name, dynamics.tip[limb])
+            contact = solver.add_point_contact(task)
+            contact.mu, contact.unilateral = FRICTION, not pulls(law, limb)
+            contact.R_world_surface = aims.frame[limb, (1, 2, 0)].T  # its z is the normal
+        elif does == SWINGS:
+            task = solver.add_position_task(name, aims.tip[limb])
+            task.configure(name, "soft", law.gains.swing)
 
-        return tick
+    def tick(self) -> Floats:
+        """Torques, shape (n,)."""
+        self.robot.state.q, self.robot.state.qd = self.q, self.v
+        self.robot.update_kinematics()
+        torques: Floats = self.solver.solve().tau[FREE:]
+        return torques
 
-    ticks = [made(law) for law in laws]
-    return lambda i: ticks[i]()
 
-
-def tsid_tick(laws: Sequence[BodyLaw]) -> Tick:
+class TsidBody:
     """Accelerations and forces as TSID has them, by eiquadprog: base, swinging tips, contacts and posture, limits of torques."""
-    import pinocchio
-    from tsid import tsid_pywrap as tsid  # some of its wheels have nothing in the package itself
 
-    def constant(name: str, value: Any) -> Any:
-        kind = tsid.TrajectorySE3Constant if isinstance(value, pinocchio.SE3) else tsid.TrajectoryEuclidianConstant
-        return kind(name, value).computeNext()
+    def __init__(self, law: BodyLaw) -> None:
+        import pinocchio
+        from tsid import tsid_pywrap as tsid  # some of its wheels have nothing in the package itself
 
-    def made(law: BodyLaw) -> Callable[[], Floats]:
-        aims, dynamics, gains, n = law.aims, law.dynamics, law.gains, law.tree.joints
+        self.pinocchio, self.tsid, self.law = pinocchio, tsid, law
         with _urdf_file(law) as file:
             folders = pinocchio.StdVec_StdString()
             folders.append(str(file.parent))
-            robot = tsid.RobotWrapper(str(file), folders, pinocchio.JointModelFreeFlyer(), False)
+            floating = pinocchio.JointModelFreeFlyer()
+            robot = tsid.RobotWrapper(str(file), folders, floating, False)
         robot.model().armature = np.concatenate((np.zeros(FREE), law.tree.rotor))
         robot.setGravity(pinocchio.Motion(law.tree.gravity, np.zeros(3)))
-        q, v = _pinocchio_state(law.state)
-        inverse = tsid.InverseDynamicsFormulationAccForce("body", robot, False)
-        inverse.computeProblemData(0.0, q, v)
-        most = float(law.tree.mass.sum()) * 100.0
-        kept: list[Any] = [robot]
-
-        def follow(task: Any, rate: float, size: int, weight: float, sample: Any) -> None:
-            task.setKp(rate**2 * np.ones(size))
-            task.setKd(2.0 * rate * np.ones(size))
-            task.setReference(sample)
-            inverse.addMotionTask(task, weight, 1, 0.0)
-            kept.append(task)
-
-        for limb, does in enumerate(aims.does.tolist()):
-            name, place = f"t{limb}", pinocchio.SE3(dynamics.tip_turn[limb], dynamics.tip[limb])
+        self.robot, (self.q, self.v) = robot, _pinocchio_state(law.state)
+        self.inverse = tsid.InverseDynamicsFormulationAccForce("body", robot, False)
+        self.inverse.computeProblemData(0.0, self.q, self.v)
+        self.kept: list[Any] = []
+        """Tasks, of which TSID keeps no references."""
+        for limb, does in enumerate(law.aims.does.tolist()):
             if does == HOLDS:
-                least = -most if pulls(law, limb) else 0.0
-                normal, size = aims.frame[limb, 0].copy(), 3 if aims.components[limb] == 3 else 6
-                if size == 3:
-                    contact = tsid.ContactPoint(name, robot, name, normal, FRICTION, least, most)
-                    contact.useLocalFrame(False)
-                else:
-                    patch = 0.01 * np.array(((1.0, 1, -1, -1), (1, -1, 1, -1), (0, 0, 0, 0)))
-                    contact = tsid.Contact6d(name, robot, name, patch, normal, FRICTION, least, most)
-                contact.setKp(np.zeros(size))
-                contact.setKd(gains.rest_rate * np.ones(size))
-                contact.setReference(place)
-                inverse.addRigidContact(contact, 1e-5)
-                kept.append(contact)
+                self._hold(limb)
             elif does == SWINGS:
-                task = tsid.TaskSE3Equality(name, robot, name)
-                task.setMask(np.array((1.0, 1, 1, 0, 0, 0)))
-                aim = pinocchio.SE3(dynamics.tip_turn[limb], aims.tip[limb])
-                follow(task, gains.swing_rate, 6, gains.swing, constant(name, aim))
-        aim = pinocchio.SE3(aims.rotation, aims.position)
-        follow(tsid.TaskSE3Equality("base", robot, "b0"), gains.base_rate, 6, gains.base, constant("base", aim))
+                self._swing(limb)
+        gains, aims = law.gains, law.aims
+        base = tsid.TaskSE3Equality("base", robot, "b0")
+        aim = tsid.TrajectorySE3Constant("base", pinocchio.SE3(aims.rotation, aims.position))
+        self._follow(base, (gains.base_rate, gains.base), FREE, aim)
         leaning = tsid.TaskJointPosture("posture", robot)
-        follow(leaning, gains.posture_rate, n, gains.posture, constant("posture", aims.posture))
+        aim = tsid.TrajectoryEuclidianConstant("posture", aims.posture)
+        self._follow(leaning, (gains.posture_rate, gains.posture), law.tree.joints, aim)
         torques = tsid.TaskActuationBounds("torques", robot)
         torques.setBounds(-law.limits.torque, law.limits.torque)
-        inverse.addActuationTask(torques, 1.0, 0, 0.0)
-        kept.append(torques)
-        solver = tsid.SolverHQuadProgFast("eiquadprog")
-        solver.resize(inverse.nVar, inverse.nEq, inverse.nIn)
+        self.inverse.addActuationTask(torques, 1.0, 0, 0.0)
+        self.kept.append(torques)
+        self.solver = tsid.SolverHQuadProgFast("eiquadprog")
+        self.solver.resize(self.inverse.nVar, self.inverse.nEq, self.inverse.nIn)
 
-        def tick() -> Floats:
-            found = solver.solve(inverse.computeProblemData(0.0, q, v))
-            made: Floats = inverse.getActuatorForces(found)
-            return made
+    def _follow(self, task: Any, how: tuple[float, float], size: int, aim: Any) -> None:
+        """A task with so many equations, its rate [1/s] and weight, whose aim stands still."""
+        rate, weight = how
+        task.setKp(rate**2 * np.ones(size))
+        task.setKd(2.0 * rate * np.ones(size))
+        task.setReference(aim.computeNext())
+        self.inverse.addMotionTask(task, weight, 1, 0.0)
+        self.kept.append(task)
 
-        tick.kept = kept  # type: ignore[attr-defined]  # TSID keeps no references to its tasks
-        return tick
+    def _swing(self, limb: int) -> None:
+        """The way of a tip."""
+        law, name = self.law, f"t{limb}"
+        task = self.tsid.TaskSE3Equality(name, self.robot, name)
+        task.setMask(np.array((1.0, 1, 1, 0, 0, 0)))
+        pose = self.pinocchio.SE3(law.dynamics.tip_turn[limb], law.aims.tip[limb])
+        aim = self.tsid.TrajectorySE3Constant(name, pose)
+        self._follow(task, (law.gains.swing_rate, law.gains.swing), 6, aim)
 
-    ticks = [made(law) for law in laws]
-    return lambda i: ticks[i]()
+    def _hold(self, limb: int) -> None:
+        """A contact in a point or, where it bears moments, of a small square."""
+        law, tsid, name = self.law, self.tsid, f"t{limb}"
+        most = float(law.tree.mass.sum()) * 100.0
+        least = -most if pulls(law, limb) else 0.0
+        bears = law.aims.frame[limb, 0].copy(), FRICTION, least, most
+        size = 3 if law.aims.components[limb] == 3 else 6
+        if size == 3:
+            contact = tsid.ContactPoint(name, self.robot, name, *bears)
+            contact.useLocalFrame(False)
+        else:
+            square = 0.01 * np.array(((1.0, 1, -1, -1), (1, -1, 1, -1), (0, 0, 0, 0)))
+            contact = tsid.Contact6d(name, self.robot, name, square, *bears)
+        contact.setKp(np.zeros(size))
+        contact.setKd(law.gains.rest_rate * np.ones(size))
+        turn, tip = law.dynamics.tip_turn[limb], law.dynamics.tip[limb]
+        contact.setReference(self.pinocchio.SE3(turn, tip))
+        self.inverse.addRigidContact(contact, 1e-5)
+        self.kept.append(contact)
+
+    def tick(self) -> Floats:
+        """Torques, shape (n,)."""
+        found = self.solver.solve(self.inverse.computeProblemData(0.0, self.q, self.v))
+        torques: Floats = self.inverse.getActuatorForces(found)
+        return torques
 
 
 def _pinocchio_state(state: State) -> tuple[Floats, Floats]:
@@ -200,8 +214,8 @@ def _pinocchio_state(state: State) -> tuple[Floats, Floats]:
     return q, np.concatenate((state.rotation.T @ state.speed[:3], state.speed[3:]))
 
 
-RIVALS: Final[dict[str, Callable[[Sequence[BodyLaw]], Tick]]] = {"placo": placo_tick, "tsid": tsid_tick}
-"""Module -> what it does in a tick; each is optional."""
+RIVALS: Final[dict[str, Callable[[BodyLaw], Rival]]] = {"placo": PlacoBody, "tsid": TsidBody}
+"""Module -> a law at a moment by it; each is optional."""
 
 
 def installed(name: str) -> bool:

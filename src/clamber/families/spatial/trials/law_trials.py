@@ -42,7 +42,6 @@ class Moment:
 class LawTrial:
     """What became of one law's run, as it truly was."""
 
-    law: str
     reason: str
     """Why it did not come to its end; empty where it did."""
     motions: int
@@ -120,7 +119,6 @@ def try_law(task: SpatialTask, plan: Plan, law: str) -> tuple[LawTrial, list[Mom
     report = Sequencer(Carrying(body, task, Course.of(task, plan))).run()
     truth = plant.truth()
     trial = LawTrial(
-        law=law,
         reason=report.reason,
         motions=sum(motion.outcome == "ok" for motion in report.motions),
         torque=report.torque,

@@ -32,13 +32,13 @@ class SpatialTrial(Jsonable):
 
     seed: Count
     done: bool
-    """Whether it came to its end."""
+    """Whether the plan came to its end."""
     reason: str
     """Why not; empty where it did."""
     seconds: float
     """Simulated."""
     actions: Count
-    """That were carried out."""
+    """Of the plan that were carried out."""
     off: float
     """Largest distance of the body from where it was to be, as believed [m]."""
     lost: float | None
