@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_576,
-    "files": 668,
+    "lines": 100_547,
+    "files": 667,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 57,
     "median length of a line": 40,

@@ -19,7 +19,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Entry:
-    """One key of the JSON of a class."""
+    """One key of a class's JSON."""
 
     key: str
     name: str

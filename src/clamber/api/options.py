@@ -21,7 +21,7 @@ class Crew(TypedDict, total=False):
     store: str | Path | None
     """SQLite file that keeps each item as it ends."""
     resume: bool
-    """Whether to go on with that file."""
+    """Whether to go on with it."""
 
 
 class Runs(Crew, total=False):

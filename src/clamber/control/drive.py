@@ -268,7 +268,7 @@ JOINTS = 9
 LAWS = 10
 """Records of settings."""
 MEMORY = 11
-"""Numbers that a limb's law remembers."""
+"""Numbers a limb's law remembers."""
 LENGTH = 12
 """Of a line of scratch."""
 SIDE = 13

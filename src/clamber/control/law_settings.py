@@ -154,7 +154,7 @@ class LawSettings:
     force_gain: float = 0.0
     """Integral gain of a sensed force [1/s]; 0: open loop."""
     force_limit: float = 20.0
-    """Most that this integral adds [N]."""
+    """Most this integral adds [N]."""
     force_damping: float = 50.0
     """Damping along rows of force [N s/m]."""
     torque_sensor: str = "none"

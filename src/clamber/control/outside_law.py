@@ -1,6 +1,5 @@
 """Laws that other packages add. They are Python, called limb by limb and tick by tick: on the limb bench, not in a body's compiled tick."""
 
-from collections.abc import Callable
 from typing import Any, Final, Protocol
 
 import numpy as np
@@ -28,10 +27,6 @@ class OutsideLaw(Protocol):
             q, qd: Sensed joint angles and speeds, shape (n,) [rad], [rad/s].
             wrench: Sensed wrench of the limb on what it touches, base frame, shape (6,) [N], [N m]; zero without a sensor.
         """
-
-
-MakeLaw = Callable[[Chain, LawSettings, float], OutsideLaw]
-"""Chain as it is believed, settings as they were stated, control period [s] -> a law."""
 
 
 class LoopController(Protocol):

@@ -41,10 +41,10 @@ Progress = Callable[[int, int, Outcome], None]
 
 @dataclass(frozen=True, slots=True)
 class Kept:
-    """What the store of a batch holds."""
+    """What a batch's store holds."""
 
     note: Json | None
-    """What was noted when it was made."""
+    """Noted when it was made."""
     results: tuple[Json, ...]
     """Of the items that ended without an error."""
 

@@ -162,7 +162,7 @@ class Crew:
     store: Path | None = None
     """SQLite file that keeps each result of a titled batch as it ends."""
     resume: bool = False
-    """Whether to go on with that file."""
+    """Whether to go on with it."""
     progress: Progress | None = None
     """Told of each end."""
     then: Progress | None = None

@@ -47,7 +47,7 @@ SCENARIO_MEASURES: Final = {
     "circle": ("radial_rms", "radial_max", "lag", "iae"),
     "push": ("along_max", "across_max", "across_rms", "settling", "on_aim", "rest", "iae"),
 }
-"""Those of the tip that a scenario has."""
+"""Those of the tip a scenario has."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -70,7 +70,7 @@ class Edge:
     kp: float
     """Largest that was found steady, in the law's unit."""
     beyond: float
-    """Smallest that was found unsteady."""
+    """Smallest found unsteady."""
     linear_kp: float
     """Where the linear loop without play and Coulomb friction turns unstable."""
     situation: str

@@ -59,7 +59,7 @@ class Climb:
     left: float
     """Least way left that a stance had [steps]."""
     forbidden: dict[str, int]
-    """Check -> actions that it forbade."""
+    """Check -> actions it forbade."""
 
 
 class _Memory:

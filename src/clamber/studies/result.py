@@ -32,7 +32,7 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A picture that the report draws."""
+    """A picture the report draws."""
 
     name: str
     """Of the file, without suffix."""

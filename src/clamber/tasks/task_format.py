@@ -74,7 +74,7 @@ def check_hard(hard: Sequence[str], known: Sequence[str], document: Document) ->
 
 
 PARTS: Final = ("schema", "name", "title")
-"""Keys that a task's file begins with."""
+"""Keys a task's file begins with."""
 
 
 def task_files(document: Json, name: str) -> dict[str, str]:

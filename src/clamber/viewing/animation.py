@@ -33,7 +33,7 @@ COLOURS: Final = 63
 AREAS: Final = 16
 """Colours of the palette that are for large areas."""
 SAMPLES: Final = 4
-"""Frames that the palette is made for."""
+"""Frames the palette is made for."""
 PLACES: Final = np.array((1 << 16, 1 << 8, 1), np.uint32)
 """Of red, green and blue in a colour's number."""
 

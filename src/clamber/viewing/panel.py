@@ -47,7 +47,7 @@ class Gauges:
     unit: tuple[str, float, int]
     """Of values for people: its name, its size in SI units, decimals."""
     group: int
-    """Bars that stand close together."""
+    """Bars close together."""
     note: str = ""
     """What is to be said of a full bar where it is no limit."""
 

@@ -1,5 +1,7 @@
 """Freedoms that are switched with the feet that stand, as in walking, and how large the gain may be."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from test_equation_19 import law
@@ -11,6 +13,7 @@ from clamber.families.walker.control.cooperative.freedoms import Freedoms, switc
 from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
 from clamber.families.walker.control.cooperative.stable_gain import stable_gain
+from clamber.types import Floats
 
 PHASES: tuple[tuple[Support, Freedoms], ...] = (
     ("y", "all"),
@@ -21,6 +24,12 @@ PHASES: tuple[tuple[Support, Freedoms], ...] = (
 LASTS = 4.0
 RAMP = 1.0
 PERIOD = 0.02
+
+
+def stand_on(made: Cooperator, support: Support, q: Floats) -> None:
+    """Change the feet that stand, with the robot as it is at `q`."""
+    offset, twist = made.y_in_delta(q)
+    made.stand(replace(made.footing, support=support, pose=q[:6].copy(), offset=offset, twist=twist))
 
 
 def test_the_tool_goes_on_smoothly_while_the_standing_feet_change() -> None:
@@ -38,7 +47,7 @@ def test_the_tool_goes_on_smoothly_while_the_standing_feet_change() -> None:
     arm, rates, errors = weights_of("arm", 4), [], []
     for phase in range(12):
         support, freedoms = PHASES[phase % 4]
-        made.stand_on(support, q)
+        stand_on(made, support, q)
         own = weights_of(freedoms, 4)
         judge = Judge(robot, made.footing, speeds, PERIOD)
         for k in range(round(LASTS / PERIOD)):
@@ -73,7 +82,7 @@ def test_standing_anew_does_not_move_the_robot(support: Support) -> None:
     for _ in range(300):
         q = made.step(q, target, np.zeros(3), weights).q
     before = made.limited_values(q)
-    made.stand_on(support, q)
+    stand_on(made, support, q)
     after = made.limited_values(q)
     np.testing.assert_allclose(after[4:14], before[4:14], atol=1e-12)  # joints aside: actuators, guard, legs
     still = made.step(q, made.place(q), np.zeros(3), np.zeros(10))

@@ -11,7 +11,7 @@ from ...terminal.options import takes_options
 from .options import RunOptions
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
-"""Options that change nothing of a run."""
+"""Options that change no run."""
 
 
 def repeat_words(context: typer.Context, without: Container[str]) -> str:

@@ -19,7 +19,7 @@ from .tree import Tree
 FREE_LIMB, SWINGS, HOLDS = range(3)
 """What a limb does: nothing but come to rest, follow a path with its tip, or hold on."""
 ENDLESS: Final = 1e30
-"""The solver's no bound."""
+"""What the solver takes for no bound."""
 
 
 class Aims(NamedTuple):
@@ -105,9 +105,9 @@ class Gains:
     arm: float
     """Length that angles and moments are weighed by [m]."""
     base: float = 10.0
-    """Of the base's motion [-]."""
+    """Weight of the base's motion [-]."""
     swing: float = 5.0
-    """Of a swinging tip [-]."""
+    """Of the tip of a swinging limb [-]."""
     holding: float = 50.0
     """Of tips that hold on staying where they are [-]."""
     resting: float = 1.0
@@ -119,7 +119,7 @@ class Gains:
     base_rate: float = 10.0
     """At which errors of the base die away [1/s]."""
     swing_rate: float = 20.0
-    """Of a swinging tip [1/s]."""
+    """The same of a swinging tip [1/s]."""
     posture_rate: float = 5.0
     """The same of a posture [1/s]."""
     rest_rate: float = 20.0

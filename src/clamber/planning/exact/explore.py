@@ -135,7 +135,7 @@ class Exploration:
     lower_bound: float
     """No plan has less of the first cost."""
     forbidden: dict[str, int]
-    """Check -> actions that it forbade."""
+    """Check -> actions it forbade."""
 
 
 def inform(problem: CompiledProblem, seconds: float | None) -> tuple[CompiledProblem, float | None]:

@@ -101,7 +101,7 @@ def spent(problem: CompiledProblem, costs: Mapping[str, PlanCost], stances: Reco
 
 @dataclass(frozen=True, slots=True)
 class Dropped:
-    """Modules that a filter left out."""
+    """Modules a filter left out."""
 
     filter: str
     reason: str

@@ -147,7 +147,7 @@ class Reach(Jsonable, Pictured):
     """Sub-goals in order, then the goal."""
     holds: tuple[HoldUse, ...]
     forbidden: dict[str, int]
-    """Check -> actions that it forbade."""
+    """Check -> actions it forbade."""
     closed_by: dict[str, int]
     """Check -> forbidden body moves to places that nobody reaches: what closes the edge of the map; empty while incomplete."""
     places: Table

@@ -24,7 +24,7 @@ SEEDS: Final = range(100, 110)
 LESSONS: Final = range(100, 112)
 """Of the plans that modules are learned from."""
 BUDGET: Final = 200_000
-"""Most plans that one seed evaluates."""
+"""Most plans one seed evaluates."""
 RUNG: Final = 6.0
 """Distance of two rungs [in]."""
 ALMOST_ALL: Final = 0.9

@@ -60,7 +60,7 @@ SEEDS: Final = range(100, 120)
 CROSSED: Final = SEEDS[:8]
 """Of them, those of crossovers: each is run on five tasks with three of these."""
 BUDGET: Final = 200_000
-"""Most plans that one seed evaluates."""
+"""Most plans one seed evaluates."""
 OWN_PLANS: Final = ("ladder", "modified-ladder", "h")
 """Tasks of which the thesis shows plans of its planner (2.5.1 to 2.5.3); for the others it prints plans made by hand."""
 TASKS: Final = (*OWN_PLANS, "across", "circle")
@@ -221,7 +221,7 @@ def median_evaluations(trials: Trials) -> float | None:
 
 
 SUCCESS_BUDGET: Final = 500_000
-"""Most plans that one seed evaluates."""
+"""Most plans one seed evaluates."""
 
 
 def judge_planner(found: Mapping[str, int], seeds: int) -> Verdict:

@@ -35,7 +35,7 @@ class Calm:
     calmest: float
     """The least that any of the start stances has [N m], whatever it leads to."""
     places: int
-    """Start stances that were compared."""
+    """Start stances compared."""
     searches: int
     """Whole searches that this took."""
 

@@ -79,7 +79,7 @@ ACROSS: Final = 3
 MOST_CAUSES: Final = 8
 """Bars; rarer causes are left to the table."""
 SPREAD: Final = 0.75
-"""Of a line that shows a spread [in]."""
+"""Of a line showing a spread [in]."""
 HEIGHT: Final = 1.8
 """Of a row of panels [in]."""
 

@@ -3,7 +3,7 @@
 These look at no limit of contacts and joints; torques are cut off at theirs.
 """
 
-from typing import Final, NamedTuple
+from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
@@ -81,7 +81,23 @@ class Reference(NamedTuple):
         return cls(State.of(tree), Dynamics.of(tree), np.zeros(tree.speeds))
 
 
-class OperationalSpace(BodyLaw):
+class DirectLaw(BodyLaw):
+    """A law whose torques follow from the aims in one kernel."""
+
+    kernel: ClassVar[Any]
+    """Works the torques out; whether any contact bears."""
+
+    def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
+        super().__init__(tree, limits, gains, most_rows)
+        self._room = Room.of(self)
+
+    def tick(self) -> Floats:
+        """See `BodyLaw`."""
+        of = self.tree, self.state, self.dynamics, self.aims, self.limits, self._packed, self._room
+        return self.torques if type(self).kernel(*of) else self._fail()
+
+
+class OperationalSpace(DirectLaw):
     """Operational space with null space, consistent with the contacts: the base first, swinging tips next, then the posture.
 
     With Jc the contacts' Jacobian, P = 1 - Jc^+ Jc and S the selection of joints, the equations of motion free of contact wrenches are
@@ -96,17 +112,10 @@ class OperationalSpace(BodyLaw):
     M. Mistry, L. Righetti, "Operational space control of constrained and underactuated systems", Robotics: Science and Systems VII, 2011.
     """
 
-    def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
-        super().__init__(tree, limits, gains, most_rows)
-        self._room = Room.of(self)
-
-    def tick(self) -> Floats:
-        """See `BodyLaw`."""
-        of = self.tree, self.state, self.dynamics, self.aims, self.limits, self._packed, self._room
-        return self.torques if operational_space(*of) else self._fail()
+    kernel = operational_space
 
 
-class JacobianTranspose(BodyLaw):
+class JacobianTranspose(DirectLaw):
     """Jacobian transpose with gravity compensation: virtual springs and dampers on the base and on swinging tips (Pratt et al. 2001).
 
         tau = g + J_tips^T F - Jc^T lambda,    lambda nearest to the wanted wrenches with G lambda = g_base + M_base a
@@ -118,14 +127,7 @@ class JacobianTranspose(BodyLaw):
     J. Pratt et al., "Virtual model control: an intuitive approach for bipedal locomotion", Int. J. of Robotics Research 20, 2001.
     """
 
-    def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
-        super().__init__(tree, limits, gains, most_rows)
-        self._room = Room.of(self)
-
-    def tick(self) -> Floats:
-        """See `BodyLaw`."""
-        of = self.tree, self.state, self.dynamics, self.aims, self.limits, self._packed, self._room
-        return self.torques if jacobian_transpose(*of) else self._fail()
+    kernel = jacobian_transpose
 
 
 class JointImpedance(BodyLaw):

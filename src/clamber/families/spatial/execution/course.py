@@ -66,13 +66,13 @@ class BodyMotion:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Regrab:
-    """A limb to another hold."""
+    """A limb from its hold to another."""
 
     first: int
     """Number of the plan's action, from 1."""
     limb: int
     hold: int
-    """Index of its new hold."""
+    """Index of the hold that it takes."""
     before: Standing
     after: Standing
     loads: Floats
@@ -94,7 +94,7 @@ Motion: TypeAlias = BodyMotion | Regrab
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Course:
-    """What a plan asks for."""
+    """What a plan asks for, in order."""
 
     start: Standing
     motions: tuple[Motion, ...]

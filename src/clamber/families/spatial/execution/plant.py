@@ -17,7 +17,7 @@ from ..robot.chains import Chains
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Pose:
-    """Of the base frame."""
+    """Of the base frame in the world."""
 
     rotation: Floats
     """Its axes as columns, shape (3, 3)."""

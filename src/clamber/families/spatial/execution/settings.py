@@ -2,14 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from typing import Final, Self
+from typing import Self
 
 from ....units import GRAVITY
 from ..robot.robot import SpatialRobot
 from ..statics.records import stretched
-
-STAND: Final = 2.0
-"""Force that a foot which stands is asked to press with at least, of that by which it feels that it stands [-]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +32,7 @@ class Pace:
     beside: float
     """From a hold to the next place where it is felt for [m]."""
     tries: int
-    """Places felt for a hold."""
+    """Places that are felt for a hold."""
     pressing: float
     """Force of a tip that feels for its hold per way that it misses [N/m]."""
     approach: float
@@ -62,7 +59,7 @@ class Pace:
             swing=how.swing * agile,
             shift=how.shift * math.sqrt(size / agile),
             touch=how.touch * weight,
-            stand=STAND * how.touch * weight,
+            stand=how.stand * weight,
             firm=how.firm * weight,
             beside=how.beside * size,
             tries=how.tries,

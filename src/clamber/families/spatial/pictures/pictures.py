@@ -30,7 +30,7 @@ from .world_artists import discs, draw_world, hold_radii
 GHOSTS: Final = 3
 """Stances that are drawn between start and end of a whole plan, at most."""
 GHOST: Final = 0.45
-"""Of a stance on the way [-]."""
+"""Opacity of a stance on the way [-]."""
 
 
 def draw_stance(task: SpatialTask, stance: np.void, axes: Axes, camera: Camera) -> None:

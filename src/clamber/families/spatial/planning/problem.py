@@ -172,7 +172,7 @@ def _entered(box: tuple[float, float, float, float], at: tuple[float, float]) ->
 
 
 def goal_records(task: SpatialTask) -> Records:
-    """Goals, records of `GOAL`."""
+    """Goals in order, records of `GOAL`."""
     rows = np.zeros(len(task.goals), GOAL)
     at, way = (task.start.along, task.start.across), 0.0
     for row, goal in zip(rows, task.goals, strict=True):

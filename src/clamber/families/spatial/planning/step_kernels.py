@@ -160,7 +160,7 @@ def draft(p, before, code, after):
 
 @kernel
 def step(p, before, code, after, margins):
-    """Carry out an action, judge it."""
+    """Carry out one action and judge it."""
     for k in range(margins.shape[0]):
         margins[k] = math.nan
     if draft(p, before, code, after) < 0:

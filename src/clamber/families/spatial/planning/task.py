@@ -179,7 +179,7 @@ class SpatialTask(Pictured):
     start: Start
     step: Lattice
     goals: tuple[Goal, ...]
-    """Sub-goals, then the goal."""
+    """Sub-goals in order, then the goal."""
     rules: Rules
     document: Json = field(default_factory=dict)
     """Robot, world and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
@@ -254,4 +254,4 @@ FILES: Final = TaskFormat(
     task_keys=field_names(SpatialTaskSpec),
     robot_keys=(*field_names(RobotSpec), "contacts"),
 )
-"""How robots' files are read."""
+"""How files of robots in space are read."""

@@ -58,7 +58,7 @@ class AreaFoot:
     friction: NonNegativeRatio
     """Coefficient of friction [-]."""
     length: PositiveLength
-    """Along the tip's x [m]."""
+    """Along the end effector's x [m]."""
     width: PositiveLength
     """Along its y [m]."""
     tilt: ConeAngle
@@ -216,7 +216,7 @@ class Magnet:
     radius: PositiveLength
     """Of the pole face: the lever of the moment that peels it off is that of the square in it [m]."""
     gap: NonNegativeLength = 0.0
-    """From face to steel [m]."""
+    """Between pole face and steel [m]."""
     quarter_gap: PositiveLength
     """Gap across which a quarter of the pull is left: the pull falls by the square of `gap / quarter_gap + 1` [m]."""
     tilt: ConeAngle
@@ -258,7 +258,7 @@ class Suction:
     vacuum: PositivePressure
     """Below the pressure around it [Pa]."""
     diameter: PositiveLength
-    """Of the area under it [m]."""
+    """Of the area that is sucked on [m]."""
     safety: PositiveRatio
     """Factor that the pull is divided by [-]."""
     tilt: ConeAngle

@@ -32,7 +32,7 @@ def line(**components: float) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Row:
-    """A row of a polytope."""
+    """One row of a contact's polytope."""
 
     coefficients: tuple[float, ...]
     """Of the wrench (normal, two tangents: force, then moment), shape (6,)."""

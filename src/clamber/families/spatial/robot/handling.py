@@ -29,11 +29,13 @@ class Handling:
     body: PositiveRatio = 0.05
     """Largest acceleration of the body on its way, of the agility [-]."""
     swing: PositiveRatio = 0.2
-    """Of a tip that swings [-]."""
+    """The same of a tip that swings [-]."""
     shift: PositiveRatio = 0.5
     """Time in which load passes from one set of limbs to another, of what the agility takes for the length of a limb [-]."""
     touch: PositiveRatio = 0.02
     """Force at which a foot stands, of the weight on Earth [-]."""
+    stand: PositiveRatio = 0.04
+    """Force that a foot which stands is asked to press with at least, of the weight on Earth [-]."""
     firm: PositiveRatio = 0.06
     """Force at which an end effector that does not attach has no hold there, of the weight on Earth [-]."""
     press: PositiveRatio = 0.1

@@ -125,7 +125,7 @@ class SpatialRobot(Pictured):
 
     @property
     def limb_names(self) -> tuple[str, ...]:
-        """Of the limbs, in order."""
+        """Names of the limbs, in order."""
         return self.chains.limb_names
 
     @property

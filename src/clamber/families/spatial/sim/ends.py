@@ -215,10 +215,11 @@ class Ends:
 
     def _open_recess(self, limb: int, hold: int) -> None:
         """A hold that lies deeper than was believed is the bottom of a recess, into which what attaches there can come."""
-        within = hold >= 0 and bool(self._recessed[hold]) and self._gaps[limb] <= self._reach(limb)
-        patch = self._bits[limb] & ((1 << ON_SOLIDS) - 1)
+        bits = self._bits[limb]
+        if hold >= 0 and self._recessed[hold] and self._gaps[limb] <= self._reach(limb):
+            bits &= (1 << ON_SOLIDS) - 1
         for ball in self._balls[limb]:
-            self._model.geom_contype[ball] = patch if within else self._bits[limb]
+            self._model.geom_contype[ball] = bits
 
     def _attach(self, limb: int, hold: int) -> None:
         data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]

@@ -203,9 +203,8 @@ def _add_tip(mujoco: Any, spec: Any, hand: Any, limb: str, strength: Strength, b
     hand.add_site(name=name)
     for kind in (mujoco.mjtSensor.mjSENS_FORCE, mujoco.mjtSensor.mjSENS_TORQUE):
         spec.add_sensor(type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=name)
-    bits = {"contype": bit | bit << ON_SOLIDS, "conaffinity": 0, "mass": 0.0, "priority": 1} | _contact(
-        strength.friction
-    )
+    touches = bit | bit << ON_SOLIDS
+    bits = {"contype": touches, "conaffinity": 0, "mass": 0.0, "priority": 1} | _contact(strength.friction)
     a, b = strength.halves if strength.moments else (0.0, 0.0)
     corners = [(a, b), (a, -b), (-a, b), (-a, -b)] if a or b else [(0.0, 0.0)]
     for x, y in corners:

@@ -139,7 +139,7 @@ class SpatialSim:
             mujoco.mj_comPos(model, data)
 
     def sense(self) -> SpatialSensed:
-        """Read the sensors."""
+        """Read the sensors, once a tick."""
         sensed = self.sensed
         angles, speeds = self._qpos[None, self._at], self._qvel[None, self._speed_at]
         read_encoders(

@@ -9,7 +9,7 @@ from ..robot.chains import Chains
 from ..robot.contacts import MOST_ROWS, Contact
 
 LIMBS = 8
-"""Limb slots, the first n used."""
+"""Limb slots; a robot uses the first n."""
 JOINTS = 7
 """Joint slots of a limb."""
 CLEAR = 3.0

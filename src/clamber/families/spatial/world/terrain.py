@@ -83,7 +83,7 @@ class Terrain:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Holds:
-    """Holds on a terrain."""
+    """Holds on a terrain, world frame."""
 
     places: Floats
     """[m], shape (n, 3)."""

@@ -102,7 +102,7 @@ class World(Pictured):
     gravity: tuple[float, float, float]
     """Acceleration of free fall [m/s^2]."""
     holds: tuple[Hold, ...]
-    """By number, from 1 on."""
+    """By number, from 1 without a gap."""
     solids: tuple[Any, ...]
     guide: tuple[Waypoint, ...]
     """Corners of the path that bodies go along."""

@@ -20,7 +20,7 @@ DELTA: Final = 0
 Y: Final = 1
 """The frames, in the order of every array."""
 SAMPLES: Final = 24
-"""Places at which a slide is looked at."""
+"""Places where a slide is looked at."""
 FINE: Final = 0.001
 """To which the end of a step is found, along the track [m]."""
 

@@ -9,7 +9,7 @@ from ....json_form import Count, Jsonable, Key, OrNull, in_json
 from ..control.gait import PhaseTimes
 
 WalkOutcome: TypeAlias = Literal["ok", "moved", "no ground", "refused", "fell", "fault", "stopped", "interrupted"]
-"""Those that a step of a walk may have."""
+"""Those a step of a walk may have."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -313,5 +313,5 @@ def footprints(trace: TrueWalk, f: int) -> list[Floats]:
 
 
 def run_picture(run: WalkRun) -> WalkRunView:
-    """A walk that was just carried out."""
+    """A walk just carried out."""
     return WalkRunView(run.walk.robot, run.walk.ground, run.true, run.walk.title or run.walk.name)

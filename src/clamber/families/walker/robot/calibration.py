@@ -175,7 +175,7 @@ class Fit:
     most: Annotated[float, Key("most_rad", after="least_rad")]
     """Largest angle that it gives [rad]."""
     step: Annotated[float, Key("step_m", after="most_rad")]
-    """Longest step that it gives [m]."""
+    """Longest step it gives [m]."""
     first: Annotated[float, Key("first_rad", after="shortest_m")]
     """Direction of the Delta-frame's first attachment that puts the best directions where they are printed, up to 60 deg, in
     [-30, 30] deg [rad]."""

@@ -1,6 +1,6 @@
 """The law of cooperative motion around its kernels: checks what comes in, solves the programme, looks one step ahead."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -9,7 +9,7 @@ from .....types import Floats
 from ...robot import WalkerRobot
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
-from .planted_feet import BALANCE, N_ROWS, ROW_UNITS, LimitError, PlantedFeet, Support
+from .planted_feet import BALANCE, N_ROWS, ROW_UNITS, LimitError, PlantedFeet
 from .programme import calm, let_rest, make_programme
 from .scratch import make_scratch, see_bounds, see_tool
 from .settings import Cooperation, CooperationError, stretch, swerve
@@ -146,20 +146,6 @@ class Cooperator:
         self.limited_values(q)
         x, y, twist = self._w.y_place.tolist()
         return (x, y), twist
-
-    def stand_on(self, support: Support, q: Floats, heights: Floats | None = None) -> None:
-        """Change the feet that stand, with the robot as it is at `q`.
-
-        Args:
-            support: The frame that stands from now on, or both.
-            q: Freedoms, shape (m,).
-            heights: Of the ground under each foot, Delta-frame first [m], shape (2, 3); None: as before.
-        """
-        offset, twist = self.y_in_delta(q)
-        under = self.footing.heights if heights is None else heights
-        self.stand(
-            replace(self.footing, support=support, pose=q[:POSE].copy(), offset=offset, twist=twist, heights=under)
-        )
 
     def step(
         self, q: Floats, target: Floats, velocity: Floats, weights: Floats, *, feedback: float | None = None
