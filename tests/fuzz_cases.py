@@ -13,6 +13,7 @@ from typing import Any, Final
 import numpy as np
 
 import clamber
+import fuzz_space
 from clamber.cli.app import application, command_of, commands_below
 from clamber.planning.genetic.learning import Macro
 from clamber.planning.learning import Lesson
@@ -145,6 +146,7 @@ def prepare(folder: Path, run: Callable[..., int]) -> None:
     check_viser()
     for words in QUICK:
         run(*words)
+    fuzz_space.prepare_space(folder, run)
     for name in ("robot.toml", "task.toml", "board.toml", "b.toml", "robot.urdf", "plan.csv", "whole.csv", "limb.csv"):
         (folder / name).unlink(missing_ok=True)
     for name in ("folder", "folder.json", "folder.toml"):
@@ -461,7 +463,7 @@ RECIPES: Final = (
     *(_robot,) * 3, *(_board,) * 3, _ground, *(_task,) * 3, _walk, *(_plan,) * 2, _printed_plan, _macros, _checkpoint, _store, _profile,
     _gains,
     *(_table,) * 3, _recording, *(_override,) * 2, _law, _plant, _noise, *(_quick_with_options,) * 3, *(_refused_with_options,) * 4,
-    *(_run_log,) * 2, *(_shown,) * 2, _carried_out, _trials_store,
+    *(_run_log,) * 2, *(_shown,) * 2, _carried_out, _trials_store, *fuzz_space.RECIPES,
 )  # fmt: skip
 
 

@@ -1,14 +1,16 @@
 """Models and worlds that cannot be used: the error names file and element, and what is allowed; nobody sees a traceback."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from clamber.errors import ClamberError
-from clamber.families.spatial.robot.robot import build_robot
+from clamber.errors import ClamberError, SpecError
+from clamber.families.spatial.family import SPATIAL
+from clamber.families.spatial.robot.robot import build_robot, whole_document
 from clamber.families.spatial.robot.starter import import_robot
-from clamber.files import Document
+from clamber.files import Document, read_toml
 
 LIMIT = '<limit lower="-1" upper="1" effort="5" velocity="1"/>'
 
@@ -133,3 +135,36 @@ def test_the_command_ends_with_one_message(
         code, out, err = clamber("new", "robot", *words, "-o", "robot.toml")
         assert code == 2 and out == "" and err.startswith("clamber: ") and "Traceback" not in err
         assert not (tmp_path / "robot.toml").exists()
+
+
+def change(kind: str, index: int, key: str, value: object) -> Callable[[dict[str, list[dict[str, object]]]], None]:
+    """What sets a key of a part."""
+    return lambda parts: parts[kind][index].update({key: value})
+
+
+@pytest.mark.parametrize(
+    ("key", "spoil"),
+    [
+        ("links.1.parent", change("links", 1, "parent", "LH_tibia")),
+        ("links.0.parent", change("links", 0, "parent", "base")),
+        ("links.1.parent", change("links", 1, "parent", None)),
+        ("links.2.name", change("links", 2, "name", "base")),
+        ("links.0.axes", change("links", 0, "axes", [[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 1.0]])),
+        ("links.0.axes", change("links", 0, "axes", [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]])),
+        ("joints.1.name", lambda parts: parts["joints"][1].update(name=parts["joints"][0]["name"])),
+        ("joints.0.axis", change("joints", 0, "axis", [0.0, 0.0, 0.0])),
+        ("joints.0.link", change("joints", 0, "link", "nobody")),
+        ("sites.0.link", change("sites", 0, "link", "nobody")),
+        ("shapes.0.link", change("shapes", 0, "link", "nobody")),
+    ],
+)
+def test_parts_in_a_plan_that_do_not_fit_together_are_named(
+    key: str, spoil: Callable[[dict[str, list[dict[str, object]]]], None]
+) -> None:
+    whole = whole_document(read_toml(SPATIAL.data / "robots" / "gripper-climber.toml"))
+    moved = Document("plan.json robot", json.loads(json.dumps(whole.data)))
+    build_robot(moved)
+    spoil(moved.data["parts"])
+    with pytest.raises(SpecError) as told:
+        build_robot(moved)
+    assert told.value.key == key

@@ -24,7 +24,7 @@ from .contacts import Contact
 from .handling import Handling, Payload
 from .model import read_model
 from .readings import LINEAR, Load, Position, Rate, Reading, shown
-from .tree import Frame, Joint, Tree, rooted_at
+from .tree import Frame, Joint, Tree, read_tree, rooted_at
 
 SCHEMA: Final = "clamber-robot-1"
 FAMILY: Final = "spatial"
@@ -173,7 +173,7 @@ def build_robot(document: Document) -> SpatialRobot:
     check_schema(document, SCHEMA)
     whole = whole_document(document)
     robot = build_spec(RobotSpec, whole, without=("schema", "family", "parts", "contacts"))
-    tree = build_spec(Tree, whole.section("parts", f"{document.label} [parts]"))
+    tree = read_tree(whole.section("parts", f"{document.label} [parts]"))
     path = None if "parts" in document.data and document.folder is None else model_path(document)
     return _built(robot, tree, whole, path)
 

@@ -8,7 +8,8 @@ from typing import Annotated, Final, Literal, TypeAlias
 import numpy as np
 from pydantic import Field, StrictStr
 
-from ....specs import spec
+from ....files import Document
+from ....specs import build_spec, spec
 from ....types import Floats
 
 Number: TypeAlias = Annotated[float, Field(strict=True, allow_inf_nan=False)]
@@ -16,6 +17,8 @@ NotNegative: TypeAlias = Annotated[float, Field(strict=True, ge=0.0, allow_inf_n
 Vector: TypeAlias = tuple[Number, Number, Number]
 Matrix: TypeAlias = tuple[Vector, Vector, Vector]
 """Rows."""
+ROUNDED: Final = 1e-6
+"""What the numbers of a file may take from an axis's length or a matrix's product."""
 
 
 @spec
@@ -130,6 +133,42 @@ class Tree:
     def mass(self) -> float:
         """Of all links [kg]."""
         return sum(link.mass for link in self.links)
+
+
+def read_tree(document: Document) -> Tree:
+    """The tree of a document, whose parts name each other.
+
+    Raises:
+        SpecError: If a part names a link that is not there or comes later, two have one name, or axes are none.
+    """
+    tree = build_spec(Tree, document)
+    links: list[str] = []
+    for index, link in enumerate(tree.links):
+        if link.name in links:
+            raise document.problem(f"links.{index}.name", "names of links must differ")
+        if (link.parent in links) is not bool(links) or (link.parent is not None and not links):
+            raise document.problem(f"links.{index}.parent", "must be a link before it, and only the first has none")
+        _check_axes(document, f"links.{index}.axes", link.axes)
+        links.append(link.name)
+    joints = [joint.name for joint in tree.joints]
+    for index, joint in enumerate(tree.joints):
+        if joint.name in joints[:index]:
+            raise document.problem(f"joints.{index}.name", "names of joints must differ")
+        if abs(np.linalg.norm(joint.axis) - 1.0) > ROUNDED:
+            raise document.problem(f"joints.{index}.axis", "must have the length 1")
+    for index, site in enumerate(tree.sites):
+        _check_axes(document, f"sites.{index}.axes", site.axes)
+    for kind in ("joints", "sites", "shapes"):
+        for index, part in enumerate(getattr(tree, kind)):
+            if part.link not in links:
+                raise document.problem(f"{kind}.{index}.link", "must be the name of a link")
+    return tree
+
+
+def _check_axes(document: Document, key: str, axes: Matrix) -> None:
+    turned = np.array(axes)
+    if np.abs(turned @ turned.T - np.eye(3)).max() > ROUNDED or np.linalg.det(turned) < 0.0:
+        raise document.problem(key, "must be a rotation matrix")
 
 
 @dataclass(frozen=True, slots=True)
