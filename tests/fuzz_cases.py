@@ -221,7 +221,7 @@ def _task(rng: random.Random, folder: Path) -> list[str]:
     _toml(rng, folder, _shipped(rng, "tasks", "clamber-task-1"), "task.toml")
     return rng.choice(
         ["check task.toml", f"plan task.toml {' '.join(FEW)}", "inventory task.toml", "new task --like task.toml -o other.toml",
-         "plan task.toml --planner exact --stances 50 --threads 1 --no-openings --quiet",
+         "plan task.toml --planner exact --stances 50 --seconds 3 --threads 1 --no-openings --quiet",
          "reach task.toml --stances 50 --threads 1 -o x.csv"]
     ).split()  # fmt: skip
 

@@ -66,7 +66,8 @@ def plan(rng: random.Random, folder: Path) -> list[str]:
         (["check", "plan.json"], ["check", "plan.json", "--all"], ["check", "plan.json", "--task", "wall-gripper"],
          ["export", "plan.json", "-o", "x.csv"], ["run", "plan.json", "--law", "no-such-law"], ["trials", "plan.json", "-n", "0"],
          ["trials", "plan.json", "-n", "1", "--noise", f"hold={rng.choice(CELLS)[:200]}", "--set", "nokey=1"],
-         ["run", "plan.json", "--plant", rng.choice(("delay=", "friction=", "nokey=", "backlash=")) + str(rng.choice(JUNK))[:200]])
+         ["run", "plan.json", "--set", f"plant.{rng.choice(('delay', 'friction', 'nokey', 'backlash'))}={rng.choice(JUNK)!s:.200}",
+          "--law", "no-such-law"])
     )  # fmt: skip
 
 

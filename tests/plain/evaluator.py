@@ -374,7 +374,8 @@ class PlainEvaluator:
         for check in BENDS:
             if check in self.rules.hard:
                 best = max(seen[one].margins[check] for one in left)
-                left = [one for one in left if seen[one].margins[check] >= min(best, -EPS)]
+                tie = BETTER * max(1.0, abs(best))
+                left = [one for one in left if seen[one].margins[check] >= min(best - tie, -EPS)]
         taken = left[0]
         for one in left[1:]:
             if self.is_preferred(s, seen[one], seen[taken], one, taken):

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clamber.cli import main
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
@@ -289,6 +290,12 @@ def test_what_fails_to_attach_is_tried_again() -> None:
 def test_plans_that_are_refused_move_nothing() -> None:
     task, plan = first_steps("wall-gripper")
     assert DYNAMICS.objection(task, plan) is None
+
+
+def test_a_robot_in_space_has_no_other_plant_to_ask_for(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["run", "wall-gripper", "--plant", "volts"])
+    assert left.value.code == 2 and "--plant" in capsys.readouterr().err
 
 
 def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_the_same() -> None:

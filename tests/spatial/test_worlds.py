@@ -58,6 +58,14 @@ def test_a_guide_goes_straight_on_beyond_its_ends() -> None:
     assert frame_at(frames, GRAIN * (len(frames) - 1) + 0.5)[:3] == pytest.approx([1, 0, 1.5], abs=GRAIN)
 
 
+PATCH: dict[str, Any] = {
+    "on": {"at": ["0 m", "0 m", "0 m"], "x": [1, 0, 0], "normal": [0, 0, 1]},
+    "along": ["0 m", "1 m"],
+    "across": ["0 m", "1 m"],
+    "spacing": "0.1 m",
+}
+
+
 @pytest.mark.parametrize(
     ("guide", "key", "words"),
     [
@@ -73,6 +81,26 @@ def test_a_guide_that_is_none_is_refused(guide: list[dict[str, Any]], key: str, 
     with pytest.raises(SpecError, match=words) as refused:
         world(guide=guide)
     assert refused.value.key == key and refused.value.file == "here.toml"
+
+
+@pytest.mark.parametrize(
+    ("changed", "key", "words"),
+    [
+        ({"patterns": [PATCH | {"on": PATCH["on"] | {"normal": [2, 0, 0]}}]}, "patterns.0.on.normal", "lie along x"),
+        ({"patterns": [PATCH | {"on": PATCH["on"] | {"normal": [0, 0, 1e-320]}}]}, "patterns.0.on.normal", "be zero"),
+        ({"patterns": [PATCH | {"on": PATCH["on"] | {"x": [1e7, 0, 0]}}]}, "patterns.0.on.x.0", "or less"),
+        ({"holds": [{"number": 1, "at": ["0 m", "0 m", "0 m"], "normal": [0, 0, 0]}]}, "holds.0.normal", "be zero"),
+        (
+            {"solids": [{"kind": "plane", "at": ["0 m", "0 m", "0 m"], "normal": [0, 0, 0]}]},
+            "solids.0.normal",
+            "be zero",
+        ),
+    ],
+)
+def test_a_vector_without_a_direction_is_refused(changed: dict[str, Any], key: str, words: str) -> None:
+    with pytest.raises(SpecError, match=words) as refused:
+        world(**changed)
+    assert refused.value.key == key
 
 
 def distance(solid: Any, place: Any) -> float:

@@ -45,6 +45,10 @@ class SpatialDynamics(Dynamics):
     kind = "run"
     past = "carried out"
 
+    def unused(self, work: SpatialTask) -> frozenset[str]:
+        """Motors and servers, of which its plant knows none; its flaws are set with `--set plant.KEY`."""
+        return frozenset({"plant"})
+
     def check(self, work: SpatialTask, asked: Conditions) -> None:
         """Plant, noise and law; there are no faults."""
         body_law(asked.law or USUAL)

@@ -214,14 +214,14 @@ def judge_assignments(p, s, k, a, b, margins):
 
 @kernel
 def sift(p, rows, check):
-    """Drop the assignments that violate a check, if it is hard; where all do, all but the best."""
+    """Drop the assignments that violate a check, if it is hard; where all do, all but the best, and those as good but for rounding."""
     if not p.hard & (1 << check):
         return
     best = -math.inf
     for m in range(rows.shape[0]):
         if rows[m, MEMBER] != 0.0:
             best = max(best, rows[m, check])
-    least = min(best, -TOLERANCE)
+    least = min(best - BETTER * max(1.0, abs(best)), -TOLERANCE)
     for m in range(rows.shape[0]):
         if rows[m, check] < least:
             rows[m, MEMBER] = 0.0

@@ -200,10 +200,14 @@ def _shrink_inertias(spec: Any, model: Any, notes: Notes) -> bool:
     mj.mj_kinematics(model, data)
     large: dict[str, float] = {}
     for body in range(1, model.nbody):
-        mass, most, size = model.body_mass[body], model.body_inertia[body].max(), _size(model, data, body)
-        if mass > SLIGHT * model.body_mass.sum() and most > BULKY * mass * size**2:
-            large[model.body(body).name] = most / (mass * size**2)
-            _make_round(spec.body(model.body(body).name), 0.4 * mass * size**2)
+        mass, most, size = (
+            float(model.body_mass[body]),
+            float(model.body_inertia[body].max()),
+            float(_size(model, data, body)),
+        )
+        if mass > SLIGHT * model.body_mass.sum() and most > BULKY * mass * size * size:
+            large[model.body(body).name] = most / (mass * size * size)
+            _make_round(spec.body(model.body(body).name), 0.4 * mass * size * size)
     told = f"its inertia is {span(large)} times mass times squared size, as if of another unit; it counts as a ball's of that size"
     notes.repair("link", list(large), told)
     return bool(large)

@@ -13,7 +13,7 @@ from ....files import Document
 from ....specs import spec
 from ....types import Floats
 from ....units import NonNegativeLength, Place
-from .solids import Direction, frame_about, unit
+from .solids import Direction, check_direction, frame_about, unit
 
 GRAIN: Final = 0.005
 """Distance of the frames of a table along a guide [m]; between them frames are interpolated."""
@@ -54,6 +54,7 @@ def guide_frames(points: tuple[Waypoint, ...], document: Document) -> Floats:
         normal = points[k].normal or normal
         if normal is None:
             raise document.problem(f"guide.{k}", "must state the normal of the surface on the piece that begins here")
+        check_direction(document, f"guide.{k}.normal", normal)
         square = np.asarray(normal) - float(np.dot(normal, tangent)) * tangent
         if np.linalg.norm(square) < 1e-3 * np.linalg.norm(normal):
             raise document.problem(f"guide.{k}.normal", "must not lie along the piece")

@@ -5,9 +5,10 @@ from typing import Annotated, Final, Literal
 import numpy as np
 from pydantic import Field
 
+from ....files import Document
 from ....specs import spec
 from ....types import Floats
-from ....units import Place, PositiveLength, Ratio
+from ....units import Place, PositiveLength, Quantity
 
 PLANE, BOX, CYLINDER, TUBE, BAR, FIELD = 0, 1, 2, 3, 4, 5
 SOLID: Final = np.dtype(
@@ -24,8 +25,11 @@ SOLID: Final = np.dtype(
     ],
     align=True,
 )
-Direction = tuple[Ratio, Ratio, Ratio]
+Part = Annotated[float, Quantity("ratio", at_least=-1e6, at_most=1e6)]
+Direction = tuple[Part, Part, Part]
 """x, y, z of a vector whose length does not matter."""
+SHORT: Final = 1e-9
+"""A vector no longer than this, or than this share of others, has no direction."""
 
 
 @spec
@@ -74,6 +78,20 @@ def unit(vector: tuple[float, float, float] | Floats) -> Floats:
     given = np.asarray(vector, np.float64)
     made: Floats = given / np.linalg.norm(given)
     return made
+
+
+def check_direction(document: Document, key: str, given: Direction, x: Direction | None = None) -> None:
+    """Make sure that a vector has a direction, and one that x does not have.
+
+    Raises:
+        SpecError: Otherwise.
+    """
+    length = np.linalg.norm(given)
+    if x is None:
+        if not length > SHORT:
+            raise document.problem(key, "must not be zero")
+    elif not np.linalg.norm(np.cross(given, x)) > SHORT * max(1.0, float(length * np.linalg.norm(x))):
+        raise document.problem(key, "must not be zero or lie along x")
 
 
 def frame_about(z: Floats, x: Floats | None = None) -> Floats:

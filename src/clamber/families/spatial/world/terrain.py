@@ -23,7 +23,7 @@ from ....units import (
 )
 from .packed import Packed, pack
 from .patterns import Seed
-from .solids import Direction, frame_about, unit
+from .solids import Direction, check_direction, frame_about, unit
 from .terrain_files import Long, read_heights, read_mesh, read_points
 
 Mesh = tuple[Floats, Long]
@@ -128,8 +128,7 @@ def check_terrain(terrain: Terrain, key: str, document: Document) -> None:
     Raises:
         SpecError: Otherwise.
     """
-    if not np.linalg.norm(np.cross(terrain.x, terrain.z)) > 0.0:
-        raise document.problem(f"{key}.z", "must not be zero or lie along x")
+    check_direction(document, f"{key}.z", terrain.z, terrain.x)
     if (terrain.kind == "heights") == (terrain.size is None):
         allowed = (
             "must be given, of a height map"

@@ -23,7 +23,7 @@ from ....units import (
 from .fields import DistanceField, distance_field
 from .guide import Waypoint, guide_frames
 from .patterns import Pattern, Seed
-from .solids import SOLID, Direction, Solid, solid_record, unit
+from .solids import SOLID, Direction, Solid, check_direction, solid_record, unit
 from .terrain import Terrain, check_terrain, holds_on
 
 SCHEMA: Final = "clamber-world-1"
@@ -158,9 +158,10 @@ def build_world(document: Document) -> World:
     for k, hold in enumerate(holds):
         if hold.number != k + 1:
             raise document.problem(f"holds.{k}.number", f"must be {k + 1}: holds are numbered in order, from 1")
-        if not np.linalg.norm(hold.normal) > 0.0:
-            raise document.problem(f"holds.{k}.normal", "must not be zero")
+        check_direction(document, f"holds.{k}.normal", hold.normal)
     for k, pattern in enumerate(stated.patterns):
+        if pattern.on is not None:
+            check_direction(document, f"patterns.{k}.on.normal", pattern.on.normal, pattern.on.x)
         if len(holds) + pattern.grid > LOOSE * MOST_HOLDS:  # before they are made, which takes long
             allowed = f"makes about {pattern.grid:.0f} holds; a world may have {MOST_HOLDS}"
             raise document.problem(f"patterns.{k}.spacing", allowed)
@@ -221,9 +222,9 @@ def _frames(guide: tuple[Waypoint, ...]) -> Floats:
 
 
 def _check_solid(solid: Any, key: str, document: Document) -> None:
-    if solid.kind == "plane" and not np.linalg.norm(solid.normal) > 0.0:
-        raise document.problem(f"{key}.normal", "must not be zero")
+    if solid.kind == "plane":
+        check_direction(document, f"{key}.normal", solid.normal)
     if solid.kind in ("cylinder", "tube", "bar") and not math.dist(solid.at, solid.to) > 0.0:
         raise document.problem(f"{key}.to", "must differ from 'at'")
-    if solid.kind == "box" and not np.linalg.norm(np.cross(solid.x, solid.z)) > 0.0:
-        raise document.problem(f"{key}.z", "must not lie along x")
+    if solid.kind == "box":
+        check_direction(document, f"{key}.z", solid.z, solid.x)
