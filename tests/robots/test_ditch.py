@@ -8,7 +8,7 @@ from scipy.ndimage import label
 from scipy.signal import fftconvolve
 
 from clamber.families.walker.robot import WalkerRobot
-from clamber.families.walker.robot.ditch import Footing, FootingError, ditch_map, widest_ditch
+from clamber.families.walker.robot.ditch import Footing, FootingError, ditch_map
 from clamber.families.walker.robot.ditch_plan import cross_ditch
 from clamber.families.walker.robot.ditch_slides import fewest_slides, meet, union
 from clamber.families.walker.robot.weight import Weight, weight_of
@@ -36,6 +36,11 @@ def random_case(seed: int) -> tuple[Footing, float, float]:
         margin=float(rng.uniform(0, 30)) * MM,
     )
     return footing, rng.uniform(-15, 45) * DEG, rng.uniform(0, math.tau)
+
+
+def widest_ditch(footing: Footing, theta: float, direction: float, *, aside: bool = True) -> float:
+    """The widest ditch for one angle of the frames and one direction [m]."""
+    return float(ditch_map(footing, [theta], [direction], aside=aside)[0, 0])
 
 
 # A search that knows only where feet may stand, what lengths are allowed, and which frame carries

@@ -57,26 +57,27 @@ IMPLICIT_FORCE = 10
 
 @inlined
 def _follow(law, joints, root, settings, aim, state, memory, room, report):
+    given = joints, root, settings, aim, state, memory, room, report
     if law == SCCT:
-        scct(joints, root, settings, aim, state, memory, room, report)
+        scct(*given)
     elif law == JACOBIAN_TRANSPOSE:
-        jacobian_transpose(joints, root, settings, aim, state, memory, room, report)
+        jacobian_transpose(*given)
     elif law == OPERATIONAL_SPACE:
-        operational_space(joints, root, settings, aim, state, memory, room, report)
+        operational_space(*given)
     elif law == RESOLVED_RATE:
-        resolved_rate(joints, root, settings, aim, state, memory, room, report)
+        resolved_rate(*given)
     elif law == RESOLVED_RATE_PLAIN:
-        resolved_rate_plain(joints, root, settings, aim, state, memory, room, report)
+        resolved_rate_plain(*given)
     elif law == ADMITTANCE:
-        admittance(joints, root, settings, aim, state, memory, room, report)
+        admittance(*given)
     elif law == JOINT_PD:
-        joint_pd(joints, root, settings, aim, state, memory, room, report)
+        joint_pd(*given)
     elif law == IMPLICIT_ADMITTANCE:
-        implicit_admittance(joints, root, settings, aim, state, memory, room, report)
+        implicit_admittance(*given)
     elif law == HYBRID:
-        hybrid(joints, root, settings, aim, state, memory, room, report)
+        hybrid(*given)
     else:
-        implicit_force(joints, root, settings, aim, state, memory, room, report)
+        implicit_force(*given)
 
 
 @kernel

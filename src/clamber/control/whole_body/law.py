@@ -76,11 +76,7 @@ class WholeBody(BodyLaw):
         x, _, flag, self.told = self._solve(*views)
         if flag < 1:
             return self._fail()
-        read_torques(self.dynamics, self.limits, programme, views[2], x, self.torques)
-        for limb, at in enumerate(programme.at.tolist()):
-            self.wrenches[limb] = 0.0
-            if at >= 0:
-                self.wrenches[limb, : aims.components[limb]] = x[at : at + aims.components[limb]]
+        read_torques(self.dynamics, aims, self.limits, programme, views[2], x, self.torques, self.wrenches)
         return self.torques
 
     def _view(self, n: int, m: int) -> tuple[Any, ...]:

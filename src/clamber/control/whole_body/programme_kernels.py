@@ -224,8 +224,12 @@ def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
 
 
 @kernel
-def read_torques(dynamics, limits, programme, a, x, torques):
-    """Torques that the solution `x` takes, within the motors' limits; `a` is the programme's matrix."""
+def read_torques(dynamics, aims, limits, programme, a, x, torques, wrenches):
+    """Torques that the solution `x` takes, within the motors' limits, and its wrenches; `a` is the programme's matrix."""
+    for limb in range(wrenches.shape[0]):
+        for c in range(6):
+            bears = programme.at[limb] >= 0 and c < aims.components[limb]
+            wrenches[limb, c] = x[programme.at[limb] + c] if bears else 0.0
     for k in range(torques.size):
         total = dynamics.bias[FREE + k]
         for j in range(x.size):

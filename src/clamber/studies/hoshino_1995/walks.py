@@ -300,7 +300,8 @@ def _step_walk(levels: Sequence[tuple[float, float]], distance: float, seed: int
         f'{{ x_min = "{at} m", x_max = "{end} m", y_min = "-10 m", y_max = "10 m", height = "{height} mm" }}'
         for (at, height), end in zip(levels, ends, strict=True)
     )
-    changes = (f"ground.blocks=[{blocks}]", f"way.0.distance={distance}m")
+    title = f"Over steps, the ground then {', '.join(f'{height:g} mm' for _, height in levels)} high"
+    changes = (f"ground.blocks=[{blocks}]", f"way.0.distance={distance}m", f"title={title}")
     return run_changed("step-walk", changes, known_noise(), seed)
 
 

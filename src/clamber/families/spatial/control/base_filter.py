@@ -2,10 +2,11 @@
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from ....control.whole_body.tree import Dynamics, State, Tree
 from ....types import Floats, Ints
 from ....units import DEGREE
 from .base_filter_kernels import (
@@ -17,11 +18,15 @@ from .base_filter_kernels import (
     VELOCITY,
     add_drift,
     begin_contact,
-    correct,
     end_contact,
-    predict,
+    follow,
     take_height,
 )
+
+LEAST: Final = 1e-4
+"""What links and tips give way, which no encoder tells [m]."""
+LAG: Final = 0.03
+"""In which a motor's torque pushes its joint's play to one side [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -86,17 +91,61 @@ class Believed(NamedTuple):
     gain: Floats
 
 
+class Followed(NamedTuple):
+    """A robot's joints as its encoders and motors tell of them; a NamedTuple, as kernels take it."""
+
+    own: State
+    """Joints as the encoders have them; at the world's origin."""
+    placed: State
+    """The same with each joint on the side of its play that its motor pushes from."""
+    work: Dynamics
+    """Of `placed`: where the tips are in the base."""
+    variances: Floats
+    """Of where the tips are in the base, by the encoders [m^2], shape (limbs,)."""
+    pushed: Floats
+    """Torque of each motor over the last `LAG` [N m] or [N], shape (n,)."""
+    firm: Floats
+    """That pushes its joint's play to one side [N m] or [N], shape (n,)."""
+    half_play: Floats
+    """[rad], shape (n,)."""
+
+    @classmethod
+    def of(cls, tree: Tree, firm: Floats, half_play: Floats) -> "Followed":
+        """Of a tree, all joints at 0."""
+        own, limbs, n = State.of(tree), tree.limbs, tree.joints
+        placed = own._replace(joints=np.zeros(n))
+        return cls(own, placed, Dynamics.of(tree), np.zeros(limbs), np.zeros(n), firm, half_play)
+
+
+class Packed(NamedTuple):
+    """Settings as the kernel reads them."""
+
+    gravity: Floats
+    """World frame [m/s^2], shape (3,)."""
+    noise: Floats
+    """As in `base_filter_kernels.predict`, shape (6,)."""
+    tracking: tuple[float, float, float]
+    """What a filter of joints keeps over a period, -1: encoders tell speeds [-]; the period, and `LAG` [s]."""
+    contacts: tuple[float, float, float, float]
+    """`LEAST`, the encoders' spread [rad], variance of a tip's direction [rad^2], and the gate [m]."""
+    off: Floats
+    """Scratch, shape (6,)."""
+
+
 class BaseFilter:
     """A contact-aided invariant filter.
 
     Args:
         limbs: How many.
+        tracking: What a tracking filter of joints keeps over a period, -1: encoders tell speeds [-]; and the period [s].
         directed: 1 for limbs whose contacts hold their direction, shape (limbs,).
         gravity: World frame [m/s^2], shape (3,).
         settings: What it believes of its sensors.
     """
 
-    def __init__(self, limbs: int, directed: Ints, gravity: Floats, settings: FilterSettings) -> None:
+    def __init__(
+        self, limbs: int, tracking: tuple[float, float], directed: Ints, gravity: Floats, settings: FilterSettings
+    ) -> None:
         first = CONTACTS + 3 * limbs
         turn_at = np.where(directed, first + 3 * (np.cumsum(directed) - 1), -1).astype(np.int32)
         n = first + 3 * int(directed.sum())
@@ -115,13 +164,11 @@ class BaseFilter:
         )
         self.slips = 0
         """How often a tip that should stay has moved."""
-        self._settings, self._gravity = settings, gravity
-        s = settings
-        self._noise = np.array(
-            (s.gyro, s.accelerometer, s.gyro_wander, s.accelerometer_wander, s.slip, s.yielding), np.float64
-        )
-        self._off, self._row = np.zeros(6), np.zeros(n)
-        self._turned = s.encoder**2 * 3.0
+        self._settings = s = settings
+        noise = np.array((s.gyro, s.accelerometer, s.gyro_wander, s.accelerometer_wander, s.slip, s.yielding))
+        self._row, self._turned = np.zeros(n), s.encoder**2 * 3.0
+        contacts = (LEAST, s.encoder, self._turned, s.gate)
+        self._packed = Packed(gravity, noise, (*tracking, LAG), contacts, np.zeros(6))
 
     def begin(self, rotation: Floats, position: Floats) -> None:
         """Begin at rest at a pose, with no contact."""
@@ -140,13 +187,9 @@ class BaseFilter:
             b.covariance[range(first, first + 3), range(first, first + 3)] = spread**2
         self.slips = 0
 
-    def predict(self, gyro: Floats, accelerometer: Floats, dt: float) -> None:
-        """Move on by a time [s]."""
-        predict(self.believed, gyro, accelerometer, self._gravity, self._noise, dt)
-
-    def correct(self, tips: Floats, axes: Floats, variances: Floats) -> None:
-        """Take in that tips stay where they are; arguments as those of the kernel."""
-        self.slips += correct(self.believed, tips, axes, variances, self._turned, self._settings.gate, self._off)
+    def follow(self, tree: Tree, body: Followed, sensed: Any, passed: float) -> None:
+        """Take in the readings of a tick, `passed` [s] after those before; arguments as those of the kernel."""
+        self.slips += follow(tree, body, self.believed, sensed, self._packed, passed)
 
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""

@@ -11,6 +11,8 @@ import math
 import numpy as np
 
 from ....compiled import inlined, kernel
+from ....control.whole_body.tree import FREE
+from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 
 IDENTITY = np.eye(3)
 PHI, VELOCITY, POSITION, GYRO, ACCELEROMETER, CONTACTS = 0, 3, 6, 9, 12, 15
@@ -343,3 +345,44 @@ def take_height(belief, limb, place, normal, variance, row):
         off += normal[a] * (d[a] - place[a])
     take_row(belief, row, off, variance)
     apply_error(belief)
+
+
+@kernel
+def follow(tree, body, belief, sensed, settings, passed):
+    """Bring a belief up to date with the readings of a tick: joints, motion of the base, and tips that stay where they are.
+
+    Args:
+        tree: The robot as it is believed to be.
+        body: Its joints, and what is worked out of them (`base_filter.Followed`), in place.
+        belief: As in `predict`.
+        sensed: The readings.
+        settings: Of the filter (`base_filter.Packed`).
+        passed: Time since the readings before [s]; 0: none has passed.
+
+    Returns:
+        Number of tips that have slipped.
+    """
+    if passed > 0.0:
+        predict(belief, sensed.gyro, sensed.accelerometer, settings.gravity, settings.noise, passed)
+    own, (kept, period, lag), (least, spread, turned, gate) = body.own, settings.tracking, settings.contacts
+    share = 1.0 - math.exp(-passed / lag)
+    for k in range(own.joints.size):
+        angle, speed = sensed.joints[0, k], sensed.joints[1, k]
+        if kept >= 0.0:  # encoders too coarse to tell speeds
+            own.joints[k] += passed * own.speed[FREE + k]
+            off = angle - own.joints[k]
+            angle = own.joints[k] + (1.0 - kept * kept) * off
+            speed = own.speed[FREE + k] + (1.0 - kept) ** 2 / period * off
+        own.joints[k], own.speed[FREE + k] = angle, speed
+        body.pushed[k] += share * (sensed.torques[k] - body.pushed[k])
+        side = min(1.0, max(-1.0, body.pushed[k] / body.firm[k]))
+        body.placed.joints[k] = angle - body.half_play[k] * side
+    place_bodies(tree, body.placed, body.work)
+    tip_motion(tree, body.placed, body.work)
+    for limb in range(body.variances.size):
+        lever = 0.0
+        for a in range(3):
+            for k in range(own.joints.size):
+                lever += body.work.jacobian[limb, a, FREE + k] ** 2
+        body.variances[limb] = least * least + spread * spread * lever / 3.0
+    return correct(belief, body.work.tip, body.work.tip_turn, body.variances, turned, gate, settings.off)

@@ -186,3 +186,32 @@ def bear(dynamics, aims, limits, room):
                     room.forces[i] -= jacobian[first + b, i] * force
     for k in range(room.torques.size):
         room.torques[k] = min(limits.torque[k], max(-limits.torque[k], room.forces[FREE + k]))
+
+
+@kernel
+def bear_loads(aims, felt, wrenches, touch, loads, pushing, fading, stand):
+    """Count which tips feel something, and write what contacts are to bear in their own frames.
+
+    Args:
+        aims: Of the law, in place.
+        felt: Readings in a row above `touch`, in place, shape (limbs,).
+        wrenches: By the tips' sensors, shape (limbs, 6).
+        touch: Force above which a tip feels something [N].
+        loads: Wrenches that contacts are to bear, world frame, shape (limbs, 6).
+        pushing: 1 of limbs that stand by friction alone, shape (limbs,).
+        fading: The limb whose load fades before it lets go; -1: none.
+        stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
+    """
+    for limb in range(felt.size):
+        x, y, z = wrenches[limb, 0], wrenches[limb, 1], wrenches[limb, 2]
+        felt[limb] = felt[limb] + 1 if math.sqrt(x * x + y * y + z * z) > touch else 0
+        if aims.does[limb] != HOLDS:
+            continue
+        for axis in range(3):
+            force, moment = 0.0, 0.0
+            for b in range(3):
+                force += aims.frame[limb, axis, b] * loads[limb, b]
+                moment += aims.frame[limb, axis, b] * loads[limb, 3 + b]
+            aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
+        if pushing[limb] and limb != fading:
+            aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)

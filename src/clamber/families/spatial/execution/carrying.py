@@ -201,8 +201,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def _watch(self) -> None:
         """After every tick."""
         report, law = self.report, self.body.law
-        report.off = max(report.off, float(np.linalg.norm(law.aims.position - law.state.position)))
-        report.torque = max(report.torque, float(np.max(np.abs(law.torques) / law.limits.torque)))
+        report.off = max(report.off, math.dist(law.aims.position, law.state.position))
+        report.torque = max(report.torque, float((np.abs(law.torques) / law.limits.torque).max()))
 
 
 def pose_of(position: Floats, rotation: Floats) -> tuple[float, ...]:

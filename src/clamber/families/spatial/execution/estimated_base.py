@@ -1,26 +1,20 @@
 """A robot in space that works out where it is: from encoders, IMU and contacts, with a map of holds that its touches correct."""
 
-import math
 from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.tree import FREE, Dynamics, State, Tree
-from ....control.whole_body.tree_kernels import place_bodies, tip_motion
+from ....control.whole_body.tree import FREE, State, Tree
 from ....types import Floats, Ints
-from ..control.base_filter import BaseFilter, FilterSettings
+from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
 from ..control.base_filter_kernels import turn_by
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .plant import Pose, SpatialSensed
 
-LEAST: Final = 1e-4
-"""What links and tips give way, which no encoder tells [m]."""
 FIRM: Final = 0.03
 """A motor that gives this part of its torque pushes its joint's play to one side [-]."""
-LAG: Final = 0.03
-"""In which it does [s]."""
 IDENTITY: Final = np.eye(3)
 SPEED_BAND: Final = 120.0
 """Of the tracking filter that makes speeds of the angles of coarse encoders [rad/s]."""
@@ -52,64 +46,37 @@ class EstimatedBase:
         play: float = 0.0,
         settings: FilterSettings = FilterSettings(),  # noqa: B008  # frozen
     ) -> None:
-        self._tree, self._period, self._late, self._settings = tree, period, late, settings
+        self._tree, self._period, self._late = tree, period, late
         limbs = tree.limbs
         directed = np.array([end.bears().moments for end in robot.ends], np.int32)
-        self.filter: Final = BaseFilter(limbs, directed, np.array(world.gravity), settings)
-        self.places: Final = world.places
+        tracking = (float(np.exp(-SPEED_BAND * period)) if coarse else -1.0, period)
+        self.filter: Final = BaseFilter(limbs, tracking, directed, np.array(world.gravity), settings)
+        self.places: Final = world.places.copy()
         """Where holds are, as believed, corrected by touch [m], shape (holds, 3)."""
-        self._map, self._normals = world.places, world.normals
+        self._map, self._normals = world.places.copy(), world.normals.copy()
         self._bears = [end.bears() for end in robot.ends]
         self._spreads = np.full(len(world.holds), settings.hold)
         self._on: Ints = np.full(limbs, -1, np.int32)
-        self._own, self._work = State.of(tree), Dynamics.of(tree)
-        self._variances = np.zeros(limbs)
-        self._coarse, self._keep = coarse, float(np.exp(-SPEED_BAND * period))
         self._number = -1
         motors = Motors.of(robot)
-        self._half_play, self._firm = np.where(motors.sliding, 0.0, play / 2.0), FIRM * motors.torque
-        self._pushed = np.zeros(tree.joints)
-        self._placed = self._own._replace(joints=self._own.joints.copy())
+        self._body = Followed.of(tree, FIRM * motors.torque, np.where(motors.sliding, 0.0, play / 2.0))
 
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """See `Belief`."""
         self.filter.begin(pose.rotation, pose.position)
         self._on[:] = -1
-        self._own.joints[:] = sensed.joints[0]
-        self._own.speed[:] = self._pushed[:] = 0.0
+        self._body.own.joints[:] = sensed.joints[0]
+        self._body.own.speed[:] = self._body.pushed[:] = 0.0
         self._number = int(sensed.number[0])
 
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """See `Belief`."""
         passed = int(sensed.number[0]) - self._number
         self._number += passed
-        if passed:
-            self.filter.predict(sensed.gyro, sensed.accelerometer, passed * self._period)
-        self._follow(sensed.joints, passed)
-        share = 1.0 - math.exp(-passed * self._period / LAG)
-        self._pushed += share * (sensed.torques - self._pushed)
-        sides = np.clip(self._pushed / self._firm, -1.0, 1.0)
-        self._placed.joints[:] = self._own.joints - self._half_play * sides
-        place_bodies(self._tree, self._placed, self._work)
-        tip_motion(self._tree, self._placed, self._work)
-        levers = np.square(self._work.jacobian[:, :3, FREE:]).sum(axis=(1, 2)) / 3.0
-        self._variances[:] = LEAST**2 + self._settings.encoder**2 * levers
-        self.filter.correct(self._work.tip, self._work.tip_turn, self._variances)
+        self.filter.follow(self._tree, self._body, sensed, passed * self._period)
         for limb in np.flatnonzero(holds != self._on).tolist():
             self._change(limb, int(holds[limb]))
         self._tell(sensed, state)
-
-    def _follow(self, joints: Floats, passed: int) -> None:
-        """Angles and speeds of the joints."""
-        own = self._own
-        if not self._coarse:
-            own.joints[:], own.speed[FREE:] = joints
-            return
-        dt = passed * self._period
-        own.joints[:] += dt * own.speed[FREE:]
-        off = joints[0] - own.joints
-        own.joints[:] += (1.0 - self._keep**2) * off
-        own.speed[FREE:] += (1.0 - self._keep) ** 2 / self._period * off
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""
@@ -119,8 +86,8 @@ class EstimatedBase:
             self._spreads[before] = max(self.filter.spread(limb), LEAST)
             self.filter.let_go(limb)
         if hold >= 0:
-            work = self._work
-            self.filter.hold_on(limb, work.tip[limb], work.tip_turn[limb], float(self._variances[limb]))
+            work, variance = self._body.work, float(self._body.variances[limb])
+            self.filter.hold_on(limb, work.tip[limb], work.tip_turn[limb], variance)
             if self._centred(limb, hold):
                 self.filter.take_place(limb, self._map[hold], self._centres(limb, hold))
             else:
@@ -144,7 +111,7 @@ class EstimatedBase:
 
     def _tell(self, sensed: SpatialSensed, state: State) -> None:
         """The belief as of now."""
-        believed, own = self.filter.believed, self._own
+        believed, own = self.filter.believed, self._body.own
         spin = sensed.gyro - believed.biases[:3]
         state.rotation[:] = believed.rotation
         state.position[:] = believed.position + self._late * believed.velocity

@@ -13,6 +13,7 @@ from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
 from ..control.laws import USUAL, body_law
+from ..control.task_kernels import bear_loads
 from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World
@@ -233,21 +234,16 @@ class LimbedBody:
         """
         law, aims = self.law, self.law.aims
         self.sensed = self.plant.sense()
-        forces = np.linalg.norm(self.sensed.wrenches[:, :3], axis=1)
-        self._felt[:] = np.where(forces > self.pace.touch, self._felt + 1, 0)
         self._believe()
-        for limb in np.flatnonzero(aims.does == HOLDS).tolist():
-            aims.wrench[limb, :3] = aims.frame[limb] @ self.loads[limb, :3]
-            aims.wrench[limb, 3:] = aims.frame[limb] @ self.loads[limb, 3:]
-            if self._stands(limb):  # a foot that bears next to nothing lifts off as soon as anything gives way
-                aims.wrench[limb, 0] = max(aims.wrench[limb, 0], self.pace.stand)
+        pace, felt = self.pace, self.sensed.wrenches
+        bear_loads(aims, self._felt, felt, pace.touch, self.loads, self._pushing, self.fading, pace.stand)
         self._press(law.tick())
         self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
         if self.told is not None:
             self.told()
-        off = float(np.linalg.norm(aims.position - law.state.position))
+        off = math.dist(aims.position, law.state.position)
         if off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
         self._feel_holds()
@@ -255,6 +251,8 @@ class LimbedBody:
     def _press(self, torques: Floats) -> None:
         """What pressing limbs miss of their aims, as springs would press: their own inertia is too little."""
         law, stiffness = self.law, self.pace.pressing
+        if not self._pressed.any():
+            return
         for limb in np.flatnonzero(self._pressed.any(axis=1)).tolist():
             normal = self._pressed[limb]
             missed = law.dynamics.tip[limb] - law.aims.tip[limb]

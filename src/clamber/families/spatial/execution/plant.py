@@ -6,7 +6,7 @@ is that of the world's list, as in stances: 0 is the hold of number 1, and -1 me
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -25,9 +25,11 @@ class Pose:
     """Its origin [m], shape (3,)."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class SpatialSensed:
-    """What the sensors say at a tick; the arrays are the plant's own and change with the next one. None tells where in the world it is."""
+class SpatialSensed(NamedTuple):
+    """What the sensors say at a tick; the arrays are the plant's own and change with the next one. None tells where in the world it is.
+
+    A NamedTuple, as kernels take it.
+    """
 
     joints: Floats
     """Angles [rad] or positions [m] by the encoders on the motors' side, then their speeds, shape (2, n)."""

@@ -133,11 +133,6 @@ class SpatialRobot(Pictured):
         """What the end of each limb can take, as statics needs it."""
         return tuple(end.contact() for end in self.ends)
 
-    @property
-    def model_sha256(self) -> str:
-        """Of the model file."""
-        return self.tree.sha256
-
 
 def whole_document(document: Document) -> Document:
     """A robot's document with what it takes from the files of its model and its contacts, so that it can be built where those are not.

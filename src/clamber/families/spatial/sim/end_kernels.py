@@ -1,4 +1,4 @@
-"""What end effectors feel and bear, as kernels: which hold is nearest, wrenches on tips, and whether they are within what holds them."""
+"""What a robot feels, as kernels: how its base moves, which hold is nearest, wrenches on tips, and whether these hold."""
 
 import math
 
@@ -180,3 +180,35 @@ def nearest_holds(tips, held, places, normals, radii, nearest, gaps):
                 best = gap
                 nearest[limb] = k
         gaps[limb] = best
+
+
+@kernel
+def mean_motion(now, qvel, gravity, seconds, turn, velocity, mean):
+    """Mean angular velocity [rad/s] and specific force [m/s^2] of a base over a time, base frame.
+
+    Args:
+        now: Axes of the base at the end of the time, as columns, shape (3, 3).
+        qvel: MuJoCo's, of the base first.
+        gravity: World frame [m/s^2], shape (3,).
+        seconds: The time.
+        turn: As `now`, at its start; then at its end.
+        velocity: Of its origin at the start [m/s], shape (3,); then at its end.
+        mean: Filled, shape (6,).
+    """
+    for a in range(3):
+        b, c = (a + 1) % 3, (a + 2) % 3
+        up, down = 0.0, 0.0
+        for k in range(3):
+            up += turn[k, c] * now[k, b]
+            down += turn[k, b] * now[k, c]
+        mean[a] = (up - down) / (2.0 * seconds)
+    for a in range(3):
+        total = 0.0
+        for k in range(3):
+            push = (qvel[k] - velocity[k]) / seconds - gravity[k]
+            total += push * 0.5 * (turn[k, a] + now[k, a])
+        mean[3 + a] = total
+    for a in range(3):
+        velocity[a] = qvel[a]
+        for k in range(3):
+            turn[a, k] = now[a, k]

@@ -6,6 +6,7 @@ import numpy as np
 
 from ....types import Floats
 from ..robot.bodies import rotation
+from .end_kernels import mean_motion
 from .spatial_flaws import SpatialFlaws
 
 
@@ -22,11 +23,15 @@ class Imu:
     """
 
     def __init__(self, flaws: SpatialFlaws, data: Any, gravity: Floats) -> None:
+        import mujoco
+
+        self._write_axes: Final = mujoco.mju_quat2Mat
         self._flaws, self._qpos, self._qvel, self._gravity = flaws, data.qpos, data.qvel, gravity
         self._spread: Final = np.repeat((flaws.gyro_noise, flaws.accelerometer_noise), 3)
         self._biases: Final = np.repeat((flaws.gyro_bias, flaws.accelerometer_bias), 3)
         self._ring = np.zeros((flaws.late + 1, 6))
-        self._mean = np.zeros(6)
+        self._mean, self._now = np.zeros(6), np.zeros(9)
+        self._axes: Final = self._now.reshape(3, 3)
         self.reset()
 
     def reset(self) -> None:
@@ -53,10 +58,6 @@ class Imu:
     def _go_on(self, tick: int) -> None:
         """Means over the time since the last reading, base frame."""
         seconds = (tick - self._tick) / self._flaws.control_rate
-        turn, velocity = rotation(self._qpos[3:7]), self._qvel[:3].copy()
-        turned = self._turn.T @ turn
-        self._mean[0] = (turned[2, 1] - turned[1, 2]) / (2.0 * seconds)
-        self._mean[1] = (turned[0, 2] - turned[2, 0]) / (2.0 * seconds)
-        self._mean[2] = (turned[1, 0] - turned[0, 1]) / (2.0 * seconds)
-        self._mean[3:] = ((velocity - self._velocity) / seconds - self._gravity) @ (0.5 * (self._turn + turn))
-        self._tick, self._turn, self._velocity = tick, turn, velocity
+        self._write_axes(self._now, self._qpos[3:7])
+        mean_motion(self._axes, self._qvel, self._gravity, seconds, self._turn, self._velocity, self._mean)
+        self._tick = tick

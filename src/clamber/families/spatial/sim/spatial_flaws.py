@@ -141,8 +141,8 @@ class Deviations:
         """Everything as believed."""
         holds = len(world.holds)
         return cls(
-            places=world.places,
-            normals=world.normals,
+            places=world.places.copy(),
+            normals=world.normals.copy(),
             strengths=np.ones(holds),
             frictions=np.ones(holds),
             masses=np.ones(1 + int(robot.chains.n_joints.sum())),

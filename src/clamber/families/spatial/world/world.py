@@ -108,6 +108,18 @@ class World(Pictured):
     """Corners of the path that bodies go along."""
     fields: tuple[DistanceField, ...] = field(default=(), compare=False)
     """Of terrains that are solid; `solid_records` has them after the solids."""
+    places: Floats = field(init=False, compare=False, repr=False)
+    """Of the holds [m], shape (n, 3); not to be written."""
+    normals: Floats = field(init=False, compare=False, repr=False)
+    """Of the holds, unit, shape (n, 3); not to be written."""
+
+    def __post_init__(self) -> None:
+        """Gather what is asked for at every tick."""
+        places = np.array([hold.at for hold in self.holds], np.float64).reshape(-1, 3)
+        normals = np.array([unit(hold.normal) for hold in self.holds], np.float64).reshape(-1, 3)
+        for name, rows in (("places", places), ("normals", normals)):
+            rows.setflags(write=False)
+            object.__setattr__(self, name, rows)
 
     @property
     def frames(self) -> Floats:
@@ -123,16 +135,6 @@ class World(Pictured):
         if 1 <= number <= len(self.holds):
             return self.holds[number - 1]
         raise UnknownHoldError(number, self.name, tuple(range(1, len(self.holds) + 1)))
-
-    @property
-    def places(self) -> Floats:
-        """Of the holds [m], shape (n, 3)."""
-        return np.array([hold.at for hold in self.holds], np.float64).reshape(-1, 3)
-
-    @property
-    def normals(self) -> Floats:
-        """Of the holds, shape (n, 3)."""
-        return np.array([unit(hold.normal) for hold in self.holds], np.float64).reshape(-1, 3)
 
     @property
     def solid_records(self) -> Records:

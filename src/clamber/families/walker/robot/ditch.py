@@ -115,8 +115,3 @@ def ditch_map(footing: Footing, thetas: npt.ArrayLike, directions: npt.ArrayLike
     )  # fmt: skip
     widths: Floats = np.maximum(0.0, out - 2.0 * footing.pad_radius)
     return widths
-
-
-def widest_ditch(footing: Footing, theta: float, direction: float, *, aside: bool = True) -> float:
-    """The widest ditch for one angle of the frames and one direction [m]; see `ditch_map`."""
-    return float(ditch_map(footing, [theta], [direction], aside=aside)[0, 0])
