@@ -144,12 +144,26 @@ def _size() -> int:
     return int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
 
 
+def _compile_apart() -> None:
+    """Fill the cache in a fork: what a compiler leaves in memory would count as every case's own."""
+    with tempfile.TemporaryDirectory(prefix="fuzz-") as folder:
+        child = os.fork()
+        if child == 0:
+            try:
+                os.chdir(folder)
+                prepare(Path(folder), run_here)
+            finally:
+                os._exit(0)
+        os.waitpid(child, 0)
+
+
 def serve(first: int, last: int) -> int:
     """Run cases and print a line for each that fails, then one of all; the number of failures."""
     LocalProcesses.run = Here.run  # type: ignore[method-assign]  # in the fork, and no workers of it
     prepared = Path(tempfile.mkdtemp(prefix="fuzz-files-"))
     here = Path.cwd()
     try:
+        _compile_apart()
         os.chdir(prepared)
         prepare(prepared, run_here)
         os.chdir(here)

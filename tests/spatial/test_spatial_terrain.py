@@ -237,6 +237,8 @@ def test_what_is_no_height_map_is_refused_by_file_and_reason(
         ("scan.csv", b"a,b,c\n1,2,3\n", "the header is x, y, z"),
         ("scan.csv", b"x [m],y [mm],z [m]\n1,2,3\n", "has no unit that x, y and z share"),
         ("scan.csv", b"x,y,z\n1,2\n", r"scan.csv:2: has 2 values"),
+        ("scan.csv", b"x,y,z\n1_000,1,2,3\n", r"scan.csv:2: has 4 values"),
+        ("scan.csv", b"x,y,z\n" + 20 * b"1,2,1e300\n", "point 1 is not finite"),
         ("scan.csv", b"x,y,z\n1,2,3\n", "has 1 points; 12 to 200000"),
         ("scan.npy", array(np.full((20, 3), np.inf)), "point 1 is not finite"),
         ("scan.npy", array(np.zeros((20, 2))), "points are rows of x, y, z"),

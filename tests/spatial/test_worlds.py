@@ -74,6 +74,7 @@ PATCH: dict[str, Any] = {
         ([{"at": ["0 m", "0 m", "0 m"]}, FLOOR[1]], "guide.0", "must state the normal"),
         ([FLOOR[0], {"at": ["0 m", "0 m", "0 m"]}], "guide.0.at", "5 mm or more from the next"),
         ([FLOOR[0]], "guide", "two points or more"),
+        ([FLOOR[0], {"at": ["100000 m", "0 m", "0 m"]}], "guide", "is 100000 m long; at most 1000 m"),
         ([*FLOOR, {"at": ["0.5 m", "1 mm", "0 m"]}], "guide.1.at", "must not turn right back"),
     ],
 )  # fmt: skip

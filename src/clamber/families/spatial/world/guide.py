@@ -17,6 +17,8 @@ from .solids import Direction, check_direction, frame_about, unit
 
 GRAIN: Final = 0.005
 """Distance of the frames of a table along a guide [m]; between them frames are interpolated."""
+MOST_LENGTH: Final = 1000.0
+"""Of a guide [m]: its table has 19 MB then, and all that is worked out along it grows with its length."""
 NODE: Final = 12
 """Floats of a frame: its origin, then its axes along, across and out of the surface, world frame."""
 
@@ -40,13 +42,16 @@ def guide_frames(points: tuple[Waypoint, ...], document: Document) -> Floats:
         document: Of the world, for errors.
 
     Raises:
-        SpecError: If a piece is too short for the arcs at its ends, a normal lies along its piece, or the path turns right back.
+        SpecError: If it is longer than `MOST_LENGTH`, a piece is too short for the arcs at its ends, a normal lies along its piece, or the
+            path turns right back.
     """
     places = np.array([point.at for point in points])
     pieces = np.diff(places, axis=0)
     lengths = np.linalg.norm(pieces, axis=1)
     if lengths.min() < GRAIN:
         raise document.problem(f"guide.{int(lengths.argmin())}.at", f"must be {1e3 * GRAIN:g} mm or more from the next")
+    if not lengths.sum() <= MOST_LENGTH:
+        raise document.problem("guide", f"is {lengths.sum():.0f} m long; at most {MOST_LENGTH:g} m")
     along = pieces / lengths[:, None]
     frames: list[Floats] = []
     normal = points[0].normal
@@ -72,10 +77,11 @@ def guide_frames(points: tuple[Waypoint, ...], document: Document) -> Floats:
         if free < 0.0:
             raise document.problem(f"guide.{k}.bend", f"arcs leave {1e3 * free:.0f} mm of the piece that begins here")
         first = places[k] + cuts[k] * along[k]
-        rows += [_row(first + share * free * along[k], frame) for share in np.linspace(0.0, 1.0, _number(free))]
+        ways = free * np.linspace(0.0, 1.0, _number(free))
+        rows.append(np.column_stack((first + ways[:, None] * along[k], np.tile(frame.ravel(), (len(ways), 1)))))
         if k + 1 < len(frames) and cuts[k + 1] > 0.0:
             rows += _arc(places[k + 1], cuts[k + 1], points[k + 1].bend, frame, frames[k + 1])
-    return _even(np.array(rows))
+    return _even(np.vstack(rows))
 
 
 def _number(length: float) -> int:

@@ -6,6 +6,7 @@ import numpy as np
 
 from ....errors import SpecError
 from ....types import Floats, Json
+from .guide import MOST_LENGTH
 from .made import PATCH, SPACING, Fit, Kind, rounded
 from .solids import frame_about, unit
 from .world import SCHEMA, World
@@ -48,7 +49,7 @@ def guide_through(world: World, fit: Fit, label: str) -> list[Json]:
         label: What errors call the file.
 
     Raises:
-        SpecError: If there are fewer than three holds.
+        SpecError: If there are fewer than three holds, or they lie too far apart.
     """
     if len(world.holds) < 3:
         allowed = "makes no guide; state smaller spacing, a larger slope, or another scale"
@@ -58,6 +59,10 @@ def guide_through(world: World, fit: Fit, label: str) -> list[Json]:
     axes = frame_about(normal, _heading(places, normal))
     own = places @ axes.T
     low, high = own[:, 0].min(), own[:, 0].max()
+    if high - low > MOST_LENGTH:
+        raise SpecError(
+            label, "holds", f"over {high - low:g} m", f"a guide may be {MOST_LENGTH:g} m long; state another scale"
+        )
     room = min(ENDS * fit.reach, 0.5 * (1.0 - SHORT) * (high - low))
     middle = 0.5 * (own[:, 1].min() + own[:, 1].max())
     near = np.abs(own[:, 1] - middle) <= max(NEAR * fit.reach, np.partition(np.abs(own[:, 1] - middle), 2)[2])

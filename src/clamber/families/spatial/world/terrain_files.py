@@ -50,7 +50,7 @@ def read_heights(path: Path) -> Floats:
         raise FileError(
             str(path), problem, f"at most {MOST_HEIGHTS} are kept, as plans have their worlds with them; resample it"
         )
-    bad = np.argwhere(~np.isfinite(values))
+    bad = np.argwhere(~_are_kept(values))
     if len(bad):
         row, column = bad[0].tolist()
         raise FileError(str(path), f"has no finite value in row {row + 1}, column {column + 1}", "fill the gaps")
@@ -89,6 +89,12 @@ def _npy(path: Path) -> Floats:
     return values.astype(np.float64)
 
 
+def _are_kept(values: Floats) -> npt.NDArray[np.bool_]:
+    """Which values are finite as the 32-bit floats that they are kept as."""
+    kept: npt.NDArray[np.bool_] = np.abs(values) <= np.finfo(np.float32).max
+    return kept
+
+
 def _line(error: Exception) -> str:
     return str(error).split("\n")[0][:160]
 
@@ -109,14 +115,15 @@ def _rows(path: Path) -> list[tuple[int, list[str]]]:
     return rows
 
 
-def _numbers(path: Path, line: int, cells: list[str], count: int) -> list[float]:
-    if len(cells) < count:
-        raise FileError(f"{path}:{line}", f"has {len(cells)} values", f"every row has {count}")
-    try:
-        return [float(cell) for cell in cells[:count]]
-    except ValueError:
-        wrong = next(cell for cell in cells if not _is_number(cell))
-        raise FileError(f"{path}:{line}", f"has {wrong!r}", "values are numbers without a unit") from None
+def _numbers(path: Path, line: int, cells: list[str], count: int, most: int) -> list[float]:
+    """The first values of a row that has `count` to `most` cells: with more of them, some stand in columns that are not theirs."""
+    if not count <= len(cells) <= most:
+        raise FileError(f"{path}:{line}", f"has {len(cells)} values", f"every row has {most}, as the first")
+    cells = cells[:count]
+    wrong = next((cell for cell in cells if not _is_number(cell)), None)
+    if wrong is not None:
+        raise FileError(f"{path}:{line}", f"has {wrong!r}", "values are numbers without a unit")
+    return [float(cell) for cell in cells]
 
 
 def _is_number(cell: str) -> bool:
@@ -124,16 +131,13 @@ def _is_number(cell: str) -> bool:
         float(cell)
     except ValueError:
         return False
-    return True
+    return "_" not in cell
 
 
 def _grid(path: Path) -> Floats:
     rows = _rows(path)
     count = len(rows[0][1])
-    if any(len(cells) != count for _, cells in rows):
-        line, cells = next((line, cells) for line, cells in rows if len(cells) != count)
-        raise FileError(f"{path}:{line}", f"has {len(cells)} values", f"every row has {count}, as the first")
-    return np.array([_numbers(path, line, cells, count) for line, cells in rows])
+    return np.array([_numbers(path, line, cells, count, count) for line, cells in rows])
 
 
 def read_points(path: Path) -> tuple[Floats, float | None]:
@@ -156,7 +160,7 @@ def read_points(path: Path) -> tuple[Floats, float | None]:
     if not LEAST_POINTS <= len(points) <= MOST_POINTS:
         allowed = f"{LEAST_POINTS} to {MOST_POINTS} are kept, as plans have their worlds with them; thin it out"
         raise FileError(str(path), f"has {len(points)} points", allowed)
-    bad = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    bad = np.flatnonzero(~_are_kept(points).all(axis=1))
     if len(bad):
         raise FileError(str(path), f"point {bad[0] + 1} is not finite", "leave such points out")
     return points, unit
@@ -178,7 +182,7 @@ def _table(path: Path) -> tuple[Floats, float | None]:
             f"{path}:{line}", "has no unit that x, y and z share", f"units are {', '.join(UNITS['length'])}"
         )
     unit = units.pop()
-    points = np.array([_numbers(path, at, cells, 3) for at, cells in rows[1:]]).reshape(-1, 3)
+    points = np.array([_numbers(path, at, cells, 3, len(header)) for at, cells in rows[1:]]).reshape(-1, 3)
     return points, UNITS["length"][unit] if unit else None
 
 
@@ -200,10 +204,9 @@ def read_mesh(path: Path) -> tuple[Floats, Long]:
     if len(faces) > MOST_TRIANGLES:
         allowed = f"at most {MOST_TRIANGLES} are kept, as plans have their worlds with them; simplify it"
         raise FileError(str(path), f"has {len(faces)} triangles", allowed)
-    if not np.isfinite(vertices).all():
-        raise FileError(
-            str(path), f"vertex {int(np.flatnonzero(~np.isfinite(vertices).all(axis=1))[0]) + 1} is not finite", ""
-        )
+    bad = np.flatnonzero(~_are_kept(vertices).all(axis=1))
+    if len(bad):
+        raise FileError(str(path), f"vertex {bad[0] + 1} is not finite", "move it")
     return vertices, faces
 
 
