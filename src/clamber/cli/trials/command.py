@@ -29,7 +29,7 @@ class TrialsOptions:
     seed: Annotated[
         int,
         typer.Option(
-            min=0, help="Of the first climb; each further one has the next. From 1000005000 on: held out, for rates."
+            min=0, help="Of the first climb; each further one has the next. From 1000006000 on: held out, for rates."
         ),
     ] = 0
     noise: NoiseTexts = None

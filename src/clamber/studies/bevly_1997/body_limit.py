@@ -13,13 +13,12 @@ from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.execution.climb_trace import ClimbTrace
 from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs, watch_rung
 from ...jobs import LocalProcesses
-from ...trials.held_out import FIRST_HELD_OUT
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 
-SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 20)
-"""Of the noise."""
+SEEDS: Final = range(1_000_000_000, 1_000_000_020)
+"""Of the noise: those of its page, held out when that was written."""
 PLANTS: Final = ("ideal", "nominal")
 PRINTED: Final = "alpha 0"
 ALPHAS: Final = (0.03, 0.1, OURS.alpha)

@@ -20,7 +20,6 @@ from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
 from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
-from ...trials.held_out import FIRST_HELD_OUT
 from ...trials.trial_runs import run_trials
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
@@ -29,7 +28,8 @@ from .body_climb import gait_plan
 from .body_entries import PLANT
 from .printed_plans import limbed_task
 
-SEEDS: Final = range(FIRST_HELD_OUT, FIRST_HELD_OUT + 6)
+SEEDS: Final = range(1_000_002_000, 1_000_002_006)
+"""Those of its page, held out when that was written."""
 RUNGS: Final = 2
 TERRAINS: Final[dict[str, tuple[str, ...]]] = {
     "warped by up to 60 mm": ("terrain=60mm",),
