@@ -17,7 +17,7 @@ from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 
-SEEDS: Final = range(1_000_000_000, 1_000_000_020)
+SEEDS: Final = range(1_000_005_000, 1_000_005_020)
 """Of the noise: those of its page, held out when that was written."""
 PLANTS: Final = ("ideal", "nominal")
 PRINTED: Final = "alpha 0"

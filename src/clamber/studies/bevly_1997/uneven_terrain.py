@@ -28,7 +28,7 @@ from .body_climb import gait_plan
 from .body_entries import PLANT
 from .printed_plans import limbed_task
 
-SEEDS: Final = range(1_000_002_000, 1_000_002_006)
+SEEDS: Final = range(1_000_005_000, 1_000_005_006)
 """Those of its page, held out when that was written."""
 RUNGS: Final = 2
 TERRAINS: Final[dict[str, tuple[str, ...]]] = {

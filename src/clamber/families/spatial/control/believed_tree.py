@@ -41,10 +41,10 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
 
 
 def joint_limits(robot: SpatialRobot) -> Limits:
-    """Limits of all joints, those that may be used."""
+    """Limits of all joints; torques are all that the motors have: the share that plans leave is for what they know nothing of."""
     chains = robot.chains
     return Limits(
-        flat(robot, chains.torque), flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed)
+        Motors.of(robot).torque, flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed)
     )
 
 

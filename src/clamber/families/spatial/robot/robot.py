@@ -77,7 +77,7 @@ class RobotSpec:
     speed: PositiveAngularSpeed | None = None
     """Of motors without load, where neither limb nor model state one for a turning joint; None: they turn as fast as they may."""
     torque_share: Share = 1.0
-    """Part of each motor's largest torque that may be used [-]."""
+    """Part of each motor's largest torque that plans use; what carries them out may use all of it [-]."""
     joint_room: NonNegativeAngle = 0.0
     """Turning joints stay so far inside their limits [rad]."""
     payload: Payload | None = None
