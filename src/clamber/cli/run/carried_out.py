@@ -47,7 +47,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             motors=words.plant,
             log=words.log(line.say),
         )
-        dynamics.check(work.item, asked)
+        work.check(asked)
         if words.report is not None:
             open_report(words.report, dynamics.kind)
         announce_compilation(quiet=words.quiet)

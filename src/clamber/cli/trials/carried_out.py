@@ -95,7 +95,7 @@ def _request(work: Work, asked: TrialsOptions, words: WorkerOptions, law: str | 
         force=asked.force,
         faults=tuple(asked.fault or ()),
     )
-    dynamics.check(work.item, request)
+    work.check(request)
     return request
 
 
