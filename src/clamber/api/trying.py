@@ -6,7 +6,6 @@ from typing import Any, Unpack
 
 from ..families.climber.trials.plan_repair import LearnedPlan
 from ..families.climber.trials.plan_repair import validate_plan as _validate
-from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task
@@ -66,7 +65,6 @@ def trials(
         force=options.get("force", False),
         faults=texts("fault", fault),
     )
-    find_planner(request.planner)
     work.check(request)
     executor, store = executor_for(options), store_of(options)
     setup = work.dynamics.trials(work.item, work.plan, request, RunEvents(), store, work.label)

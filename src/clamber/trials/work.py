@@ -6,6 +6,7 @@ from typing import Any, Final
 
 from ..errors import OptionError, SpecError
 from ..family import Family, NotOfFamilyError, families, family_of
+from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import check_name, is_plan, open_plan
 from ..planning.problem.verdict import ToRun
@@ -49,9 +50,11 @@ class Work:
         """Refuse what cannot be, before a plan is searched for.
 
         Raises:
+            UnknownNameError: If there is no such planner.
             OptionError: If a law is asked for where there are none to choose from.
             ClamberError: As `Dynamics.check`.
         """
+        find_planner(asked.planner)
         if asked.law is not None and "law" in self.dynamics.unused(self.item):
             problem = f"'{self.label}' is a {self.dynamics.kind}, whose law cannot be chosen"
             raise OptionError("law", problem, "leave it out; laws are for robots in space")

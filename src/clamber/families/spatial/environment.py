@@ -63,8 +63,13 @@ class Goal:
         """How far a body is from the straight way between both [m]."""
         begin = self.start.pose.position
         way = self.standing.pose.position - begin
-        part = float((position - begin) @ way) / max(float(way @ way), 1e-12)
-        return float(np.linalg.norm(position - begin - min(1.0, max(0.0, part)) * way))
+        gone = position - begin
+        square, part = float(way @ way), 0.0
+        if square > 0.0:
+            part = float(gone @ way) / square
+            part = min(1.0, max(0.0, part))
+        off = gone - part * way
+        return float(np.linalg.norm(off))
 
 
 class SpatialEnv(gymnasium.Env[Any, Any]):
@@ -220,6 +225,12 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             limbs[goal.limb] = 1.0
             hold = turn @ (self._belief_places()[aim.holds[goal.limb]] - state.position) / self.size
         down = np.array(self.task.world.gravity)
+        towards = aim.pose.position - state.position
+        turned = (
+            wanted[2, 1] - wanted[1, 2],
+            wanted[0, 2] - wanted[2, 0],
+            wanted[1, 0] - wanted[0, 1],
+        )
         parts = (
             state.joints,
             state.speed[6:],
@@ -229,13 +240,14 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             sensed.wrenches[:, :3].ravel() / self._pull,
             sensed.closed,
             aim.joints - state.joints,
-            turn @ (aim.pose.position - state.position) / self.size,
-            0.5 * np.array((wanted[2, 1] - wanted[1, 2], wanted[0, 2] - wanted[2, 0], wanted[1, 0] - wanted[0, 1])),
+            turn @ towards / self.size,
+            0.5 * np.array(turned),
             limbs,
             hold,
             [self.progress],
         )
-        return np.concatenate([np.asarray(part, np.float64) for part in parts]).astype(np.float32)
+        told = [np.ravel(part) for part in parts]
+        return np.concatenate(told, dtype=np.float32, casting="same_kind")
 
     def _belief_places(self) -> Floats:
         return self._belief.places if hasattr(self, "_belief") else self.task.world.places
@@ -243,12 +255,16 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
 
 def _goals(course: Course) -> tuple[Goal, ...]:
     """Stances that a plan comes to, one for each motion."""
-    return tuple(
-        Goal(motion.before, motion.after, motion.limb)
-        if isinstance(motion, Regrab)
-        else Goal(motion.start, motion.way[-1], -1)
-        for motion in course.motions
-    )
+    goals = []
+    for motion in course.motions:
+        if isinstance(motion, Regrab):
+            start, end = motion.before, motion.after
+            limb = motion.limb
+        else:
+            start, end = motion.start, motion.way[-1]
+            limb = -1
+        goals.append(Goal(start, end, limb))
+    return tuple(goals)
 
 
 def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tuple[SpatialTask, Plan]:

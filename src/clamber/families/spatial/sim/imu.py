@@ -12,8 +12,10 @@ from .spatial_flaws import SpatialFlaws
 
 def drawn_biases(flaws: SpatialFlaws, chance: np.random.Generator) -> Floats:
     """What each axis tells too much during a whole run: angular velocity [rad/s], then specific force [m/s^2], shape (6,)."""
-    found: Floats = np.repeat((flaws.gyro_bias, flaws.accelerometer_bias), 3) * chance.standard_normal(6)
-    return found
+    spread = np.empty(6)
+    spread[:3] = flaws.gyro_bias
+    spread[3:] = flaws.accelerometer_bias
+    return spread * chance.standard_normal(6)
 
 
 def chance_of(flaws: SpatialFlaws) -> np.random.Generator:

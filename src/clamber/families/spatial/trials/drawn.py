@@ -14,32 +14,64 @@ from .noise import SpatialNoise
 
 
 def drawn(noise: SpatialNoise, task: SpatialTask, plan: Plan, seed: int) -> dict[str, float]:
-    """One number for each key that differs from seed to seed, in SI; play, delay, steps and misses are as wide in each run.
+    """One number for each key that differs from seed to seed; play, delay, steps and misses are as wide in each run.
 
-    Of the holds that the plan takes, those of the start included, the root mean square of places and tilts, and of friction and strength
-    the least, for the weakest one decides; of masses that of the whole robot; of gyro and accelerometer the size of their biases; of
-    pushes the root mean square. Holds of the plan count whether a run came to them or not: runs that end early would else draw less.
+    Of the holds that the plan takes:
+
+    - `hold_place`: root mean square [m]
+    - `hold_tilt`: likewise [rad]
+    - `friction`: the least [-]
+    - `strength`: the least [-]
+
+    Of the robot:
+
+    - `mass`: of the whole [-]
+    - `payload`: over its mass [-]
+    - `gear_friction`: of all gears [-]
+    - `gyro`: size of the bias [rad/s]
+    - `accelerometer`: likewise [m/s^2]
+    - `push`: root mean square,
+      over its weight [-]
+
+    All holds of the plan count, those of its start, too, whether a run came to them or not: runs that end early would else draw less.
+    Of friction and strength the weakest hold decides.
     """
     robot, world = task.robot, task.world
-    made, flaws = noise.deviations(robot, world, seed), noise.flaws(SpatialFlaws(), seed)
+    chains = robot.chains
     holds = holds_of(task, plan)
-    tilts = np.arccos(np.clip(np.sum(made.normals[holds] * world.normals[holds], axis=1), -1.0, 1.0))
+    made = noise.deviations(robot, world, seed)
+    flaws = noise.flaws(SpatialFlaws(), seed)
     biases = drawn_biases(flaws, chance_of(flaws))
-    parts = np.concatenate(([robot.chains.base_mass], flat(robot, robot.chains.mass)))
-    weight = GRAVITY * robot.chains.total_mass
+
+    places = made.places - world.places
+    off = np.linalg.norm(places[holds], axis=1)
+    turns = np.sum(made.normals * world.normals, axis=1)
+    tilts = np.arccos(np.clip(turns, -1.0, 1.0))
+    friction = made.frictions[holds].min()
+    strength = made.strengths[holds].min()
+
+    links = flat(robot, chains.mass)
+    mass = chains.base_mass * made.masses[0]
+    mass += links @ made.masses[1:]
+    weight = GRAVITY * chains.total_mass
+    forces = [push.force for push in made.pushes]
+    pushes = np.array(forces).reshape(-1, 3)
+    pushed = np.linalg.norm(pushes, axis=1)
+
     found = {
-        "hold_place": _mean(np.linalg.norm(made.places[holds] - world.places[holds], axis=1)),
-        "hold_tilt": _mean(tilts),
-        "friction": float(made.frictions[holds].min()) - 1.0,
-        "strength": float(made.strengths[holds].min()) - 1.0,
-        "mass": float(parts @ made.masses) / robot.chains.total_mass - 1.0,
-        "payload": made.payload / robot.chains.total_mass,
+        "hold_place": _mean(off),
+        "hold_tilt": _mean(tilts[holds]),
+        "friction": friction - 1.0,
+        "strength": strength - 1.0,
+        "mass": mass / chains.total_mass - 1.0,
+        "payload": made.payload / chains.total_mass,
         "gear_friction": flaws.friction - 1.0,
-        "gyro": float(np.linalg.norm(biases[:3])),
-        "accelerometer": float(np.linalg.norm(biases[3:])),
-        "push": _mean(np.array([np.linalg.norm(push.force) / weight for push in made.pushes])),
+        "gyro": np.linalg.norm(biases[:3]),
+        "accelerometer": np.linalg.norm(biases[3:]),
+        "push": _mean(pushed) / weight,
     }
-    return {key: value if noise.widths[key] else 0.0 for key, value in found.items()}
+    widths = noise.widths
+    return {key: float(value) if widths[key] else 0.0 for key, value in found.items()}
 
 
 def holds_of(task: SpatialTask, plan: Plan) -> list[int]:
@@ -52,4 +84,6 @@ def holds_of(task: SpatialTask, plan: Plan) -> list[int]:
 
 def _mean(sizes: Floats) -> float:
     """Root mean square; 0 of none."""
-    return float(np.sqrt(np.mean(sizes**2))) if len(sizes) else 0.0
+    if not len(sizes):
+        return 0.0
+    return float(np.sqrt(np.mean(sizes**2)))
