@@ -63,6 +63,24 @@ def test_a_sweep_and_a_reach_have_pictures(tmp_path: Path) -> None:
         (lambda: clamber.trials(3), "what: 3 is no task, plan or walk"),
         (lambda: clamber.run(3), "what: 3 is no task, plan or walk"),
         (lambda: clamber.run("level-walk", noise="wind=3"), "wind"),
+        (
+            lambda: clamber.run("ladder", law="whole-body"),
+            "law: 'ladder' is a climb, whose law cannot be chosen; leave it out",
+        ),
+        (
+            lambda: clamber.trials("level-walk", law="whole-body"),
+            "law: 'level-walk' is a walk, whose law cannot be chosen",
+        ),
+        (
+            lambda: clamber.run("wall-gripper", law="wholebody"),
+            "no law of a whole body is called 'wholebody'; there are",
+        ),
+        (
+            lambda: clamber.trials("wall-gripper", law="pid"),
+            "there are whole-body, operational-space, jacobian-transpose",
+        ),
+        (lambda: clamber.run("wall-gripper", law=3), "law: 3 is not what it takes; it takes str"),  # type: ignore[arg-type]
+        (lambda: clamber.trials("wall-gripper", law=3), "law: 3 is not what it takes; it takes str"),  # type: ignore[arg-type]
         (lambda: clamber.sweep("ladder"), "0 keys are to vary"),
         (lambda: clamber.sweep(3, "a=1..2"), "task: 3 is not what it takes"),  # type: ignore[arg-type]
         (lambda: clamber.reach("ladder", stances=0.5), "stances: 0.5 is not what it takes"),  # type: ignore[arg-type]

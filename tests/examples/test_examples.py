@@ -101,6 +101,16 @@ def test_a_robot_in_space_climbs_an_overhang_until_its_grips_are_too_weak(tmp_pa
     assert (tmp_path / "overhang.png").stat().st_size > 20_000
 
 
+@pytest.mark.slow
+def test_our_controller_does_in_environments_what_no_torque_does_not(tmp_path: Path) -> None:
+    pytest.importorskip("gymnasium")
+    out = run("09_environments.py", tmp_path)
+    for name in ("Climb", "Walk"):
+        assert re.search(rf"^clamber/{name}-v0, noise none, idle: 0 of 1 done, return -", out, re.MULTILINE)
+        assert re.search(rf"^clamber/{name}-v0, noise none, ours: 1 of 1 done, return 1\d\.", out, re.MULTILINE)
+    assert len((tmp_path / "environments.csv").read_text().splitlines()) == 9
+
+
 def test_the_own_planner_plans_for_walkers_too() -> None:
     import runpy
 

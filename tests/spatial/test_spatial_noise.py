@@ -1,13 +1,22 @@
 """What a seed makes of a robot in space and its world stays within its widths, is the same each time, and can be stated by texts."""
 
+import io
 import math
+import re
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
+from rich.console import Console
 
+from clamber.families.spatial.execution.course import Course
+from clamber.families.spatial.pictures.trials_text import print_spatial_trials
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws, read_spatial_flaws
+from clamber.families.spatial.sim.spatial_plant import SpatialSim
+from clamber.families.spatial.trials.drawn import drawn, holds_of
+from clamber.families.spatial.trials.law_trials import first_steps
 from clamber.families.spatial.trials.noise import SPATIAL_NOISE, named_spatial_noise, read_spatial_noise
 from clamber.families.spatial.trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 from clamber.sim.plant_rules import PlantError
@@ -94,7 +103,7 @@ def test_causes_are_told_without_their_numbers_the_commonest_first() -> None:
     assert (fell.words, fell.seeds, fell.steps) == ("fell", (0,), (5,))
 
 
-def ended(seed: int, reason: str) -> SpatialTrial:
+def ended(seed: int, reason: str, drawn: dict[str, float] | None = None) -> SpatialTrial:
     return SpatialTrial(
         seed=seed,
         done=not reason,
@@ -106,4 +115,76 @@ def ended(seed: int, reason: str) -> SpatialTrial:
         breaks=0,
         replans=0,
         wall_seconds=1.0,
+        drawn=drawn or {},
     )
+
+
+def test_one_number_tells_what_a_seed_drew_for_the_holds_of_a_plan(task: SpatialTask) -> None:
+    noise = read_spatial_noise(named_spatial_noise("usual"), ["payload=20 %", "push=10 %"])
+    plan = first_steps(task)
+    told = drawn(noise, task, plan, 7)
+    made, holds = noise.deviations(task.robot, task.world, 7), holds_of(task, plan)
+    assert set(holds) >= {action.hold - 1 for action in plan.actions if action.hold} and len(holds) <= 4 + len(
+        plan.actions
+    )
+    assert min(made.strengths[holds]) == pytest.approx(1.0 + told["strength"])
+    assert min(made.frictions[holds]) == pytest.approx(1.0 + told["friction"])
+    assert 0.0 < told["hold_place"] <= 5e-3 and 0.0 < told["hold_tilt"] <= math.radians(5.001)
+    assert abs(told["mass"]) <= 0.1 and abs(told["gear_friction"]) <= 0.2
+    assert told["payload"] == pytest.approx(made.payload / task.robot.chains.total_mass)
+    assert 0.0 < told["push"] <= 0.1
+    assert drawn(noise, task, plan, 7) == told and drawn(noise, task, plan, 8) != told
+    assert set(drawn(named_spatial_noise("none"), task, plan, 7).values()) == {0.0}
+
+
+def test_the_mass_and_the_biases_that_are_told_are_those_of_the_simulation(task: SpatialTask) -> None:
+    noise = named_spatial_noise("usual")
+    told = drawn(noise, task, first_steps(task), 3)
+    quiet = replace(noise.flaws(SpatialFlaws(), 3), gyro_noise=0.0, accelerometer_noise=0.0, delay=0.0)
+    course = Course.of(task, first_steps(task)).start
+    readings = []
+    for flaws in (quiet, replace(quiet, gyro_bias=0.0, accelerometer_bias=0.0)):
+        plant = SpatialSim(task.robot, task.world, flaws, noise.deviations(task.robot, task.world, 3))
+        plant.reset(course.pose, course.joints, course.holds)
+        sensed = plant.sense()
+        readings.append((sensed.gyro.copy(), sensed.accelerometer.copy(), plant.model.body_mass.sum()))
+    (gyro, force, mass), (still_gyro, still_force, _) = readings
+    assert np.linalg.norm(gyro - still_gyro) == pytest.approx(told["gyro"])
+    assert np.linalg.norm(force - still_force) == pytest.approx(told["accelerometer"])
+    believed = SpatialSim(task.robot, task.world).model.body_mass.sum()
+    assert mass / believed - 1.0 == pytest.approx(told["mass"], abs=1e-4)
+
+
+def drew(seed: int) -> dict[str, float]:
+    chance = np.random.default_rng([41, seed])
+    return {
+        key: float(chance.uniform(-0.2, 0.2))
+        for key in ("hold_place", "friction", "strength", "mass", "payload", "gyro")
+    }
+
+
+def test_the_deviation_that_decides_is_named_and_no_other(task: SpatialTask) -> None:
+    setup = SpatialSetup(task=task, noise=named_spatial_noise("usual"))
+    runs = [ended(seed, "fell: off" if drew(seed)["strength"] < -0.12 else "", drew(seed)) for seed in range(80)]
+    trials = SpatialTrials(setup, 80, [*runs, setup.failed(80, "boom")])
+    verdicts = {effect.key: effect.verdict for effect in trials.effects()}
+    assert verdicts.pop("strength") == "low"
+    assert set(verdicts) == {"hold_place", "friction", "mass", "payload", "gyro"} and set(verdicts.values()) == {"none"}
+    told = {effect["key"]: effect for effect in trials.to_json()["effects"]}
+    assert told["strength"]["verdict"] == "fails more at low values" and told["strength"]["p"] < 0.05
+    text = printed(trials)
+    assert re.search(r"strength +-(19|20)\.\.(19|20) % ", text) and "strength fails more at low values (p = " in text
+
+
+def test_where_all_runs_are_done_no_effect_is_told(task: SpatialTask) -> None:
+    setup = SpatialSetup(task=task, noise=named_spatial_noise("usual"))
+    trials = SpatialTrials(setup, 20, [ended(seed, "", drew(seed)) for seed in range(20)])
+    assert {effect.verdict for effect in trials.effects()} == {"too few"}
+    text = printed(trials)
+    assert "too few failures to tell what of the noise matters" in text and "success [%] by" not in text
+
+
+def printed(trials: SpatialTrials) -> str:
+    console = Console(width=140, record=True, file=io.StringIO())
+    print_spatial_trials(console, trials, range(len(trials.ended)))
+    return console.export_text()

@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
+import clamber
 from clamber.control.whole_body.law import BodyLaw
 from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits
 from clamber.control.whole_body.tree import State, Tree
 from clamber.errors import UnknownNameError
 from clamber.families.spatial.control.laws import BODY_LAWS, body_law
+from clamber.families.spatial.trials.law_trials import first_steps, spatial_task
 from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 from plain_spatial import turn_about
 
@@ -225,3 +227,17 @@ def test_a_robot_without_contacts_is_told_of_and_torques_keep_their_limits(name:
 def test_a_law_that_is_not_there_is_refused_with_those_that_are() -> None:
     with pytest.raises(UnknownNameError, match="operational-space"):
         body_law("operational-spice")
+
+
+@pytest.mark.slow
+def test_python_takes_the_law_of_a_run_and_of_trials() -> None:
+    task = spatial_task("wall-gripper")
+    plan = first_steps(task)
+    usual, springs = (clamber.run(plan, law=law) for law in (None, "jacobian-transpose"))
+    assert usual.done and springs.done
+    assert springs.report.off > 5.0 * usual.report.off, "springs without the mass matrix lag behind"
+    tried = clamber.trials(plan, 1, noise="none", law="jacobian-transpose", workers=1)
+    assert tried.ended[0].off == pytest.approx(springs.report.off)
+    assert tried.setup.law == "jacobian-transpose"
+    paired = tried.against(clamber.trials(plan, 1, noise="none", workers=1))
+    assert paired.both == 1

@@ -31,8 +31,10 @@ class Runs(Crew, total=False):
     """Of a task without a plan; "auto" unless given."""
     seconds: float
     """Most time of the search for that plan [s]; 600 unless given."""
+    law: str | None
+    """Of the whole body of a robot in space; "whole-body" unless given."""
     replan: bool
-    """Whether a climber plans again where a hold cannot be had; True unless given."""
+    """Whether a robot plans again where a hold cannot be had; True unless given."""
     force: bool
     """Whether to carry out a plan that its checks refuse."""
     task: str | None

@@ -6,7 +6,6 @@ from typing import Any, Unpack
 
 from ..families.climber.trials.plan_repair import LearnedPlan
 from ..families.climber.trials.plan_repair import validate_plan as _validate
-from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..tasks import Task
@@ -61,13 +60,12 @@ def trials(
         plan_seconds=options.get("seconds", 600.0),
         noise=texts("noise", noise),
         plant=work.plant,
-        law=None if (law := options.get("law")) is None else str(law),
+        law=options.get("law"),
         replan=options.get("replan", True),
         force=options.get("force", False),
         faults=texts("fault", fault),
     )
-    find_planner(request.planner)
-    work.dynamics.check(work.item, request)
+    work.check(request)
     executor, store = executor_for(options), store_of(options)
     setup = work.dynamics.trials(work.item, work.plan, request, RunEvents(), store, work.label)
     return run_trials(setup, seeds, executor=executor, store=store, resume=options.get("resume", False))

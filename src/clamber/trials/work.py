@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
-from ..errors import SpecError
+from ..errors import OptionError, SpecError
 from ..family import Family, NotOfFamilyError, families, family_of
+from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import check_name, is_plan, open_plan
 from ..planning.problem.verdict import ToRun
 from ..tasks import Task, load_task, task_names
-from .dynamics import Dynamics
+from .dynamics import Conditions, Dynamics
 
 PLANT: Final = "plant."
 """First word of settings that change the plant."""
@@ -44,6 +45,20 @@ class Work:
             NotOfFamilyError: If its family has no contact dynamics.
         """
         return dynamics_of(self.family)
+
+    def check(self, asked: Conditions) -> None:
+        """Refuse what cannot be, before a plan is searched for.
+
+        Raises:
+            UnknownNameError: If there is no such planner.
+            OptionError: If a law is asked for where there are none to choose from.
+            ClamberError: As `Dynamics.check`.
+        """
+        find_planner(asked.planner)
+        if asked.law is not None and "law" in self.dynamics.unused(self.item):
+            problem = f"'{self.label}' is a {self.dynamics.kind}, whose law cannot be chosen"
+            raise OptionError("law", problem, "leave it out; laws are for robots in space")
+        self.dynamics.check(self.item, asked)
 
 
 def dynamics_of(family: Family) -> Dynamics:

@@ -1,12 +1,14 @@
-"""Shares, causes and faults of many runs as a terminal shows them."""
+"""Shares, causes, faults and what of the noise matters of many runs as a terminal shows them."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Final
 
 from rich.console import Console
 
 from ..execution.fault import FAULTS
 from ..trials.fault_trials import ENDINGS, FaultRow
+from ..trials.noise import NoiseKind
+from ..trials.sensitivity import VERDICTS, Effect, Third
 from ..trials.trial_runs import wilson_interval
 from .text_table import plain_table
 
@@ -57,3 +59,30 @@ def print_faults(console: Console, rows: Sequence[FaultRow]) -> None:
     for row in rows:
         if row.kind in FAULTS:
             console.print(f"{row.kind}: {FAULTS[row.kind].words}", soft_wrap=True)
+
+
+def print_effects(console: Console, effects: Sequence[Effect], kinds: Mapping[str, NoiseKind]) -> None:
+    """Print success by thirds of each key, and where it fails more, if that can be told."""
+    if all(effect.verdict == "too few" for effect in effects):
+        console.print(f"{VERDICTS['too few']} what of the noise matters")
+        return
+    thirds = ("low third", "middle", "high")
+    table = plain_table("success [%] by", "drawn", *thirds, right=thirds)
+    for effect in effects:
+        table.add_row(effect.key, _reach(effect, kinds[effect.key]), *[*map(_third, effect.thirds), "", ""][:3])
+    console.print(table)
+    clear = [effect for effect in effects if effect.verdict != "none"]
+    for effect in clear:
+        console.print(f"{effect.key} {VERDICTS[effect.verdict]} (p = {effect.p:.2g})")
+    if not clear:
+        console.print("no key stands out (rank tests at 5 % over all of them)")
+
+
+def _third(third: Third) -> str:
+    low, high = third.interval
+    return f"{100.0 * third.done / third.n:.0f} ({100.0 * low:.0f}-{100.0 * high:.0f})"
+
+
+def _reach(effect: Effect, kind: NoiseKind) -> str:
+    low, high = effect.thirds[0].low / kind.scale, effect.thirds[-1].high / kind.scale
+    return f"{low:.2g}..{high:.2g} {kind.unit}"

@@ -7,12 +7,12 @@ import pytest
 from climbs_by_hand import climb
 
 from clamber.families.climber.trials.noise import NOISE
-from clamber.families.climber.trials.sensitivity import LEVEL, Effect, find_effects
 from clamber.families.climber.trials.trial import ClimbTrial, error_trial
+from clamber.trials.sensitivity import LEVEL, Effect, find_effects
 
 
 def effects(trials: list[ClimbTrial]) -> dict[str, Effect]:
-    return {effect.key: effect for effect in find_effects(trials)}
+    return {effect.key: effect for effect in find_effects(NOISE, trials)}
 
 
 def judged(n: int, rule: str) -> list[ClimbTrial]:
@@ -40,7 +40,7 @@ def test_failures_by_chance_alone_are_seldom_blamed_on_a_key() -> None:
     for campaign in range(200):
         failed = np.random.default_rng([9, campaign]).random(60) < 0.2
         trials = [climb(60 * campaign + k, done=not bad) for k, bad in enumerate(failed)]
-        wrong += any(effect.verdict not in ("none", "too few") for effect in find_effects(trials))
+        wrong += any(effect.verdict not in ("none", "too few") for effect in find_effects(NOISE, trials))
     # at most 5 % of campaigns, and not more than four standard deviations above it
     assert wrong <= 200 * LEVEL + 4 * math.sqrt(200 * LEVEL * (1 - LEVEL))
 
@@ -49,7 +49,7 @@ def test_failures_by_chance_alone_are_seldom_blamed_on_a_key() -> None:
 def test_with_hardly_a_failure_or_hardly_a_success_nothing_is_told(failures: int) -> None:
     ranked = sorted((climb(seed) for seed in range(24)), key=lambda one: one.drawn["payload"])
     trials = [climb(one.seed, done=k >= failures) for k, one in enumerate(ranked)]
-    assert {effect.verdict for effect in find_effects(trials)} == {"too few"}
+    assert {effect.verdict for effect in find_effects(NOISE, trials)} == {"too few"}
 
 
 def test_thirds_count_all_climbs_once_in_order() -> None:
@@ -67,4 +67,4 @@ def test_keys_that_never_deviate_and_climbs_that_drew_nothing_are_left_out() -> 
     assert "friction" not in effects(trials)
     assert len(effects(trials)) == len(NOISE) - 1
     assert effects([*trials, error_trial(9, "boom")])["payload"].thirds[0].n == 3
-    assert find_effects([]) == []
+    assert find_effects(NOISE, []) == []

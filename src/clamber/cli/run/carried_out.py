@@ -5,7 +5,6 @@ from typing import Any
 import typer
 
 from ...interrupts import answer
-from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
 from ...terminal.live_line import LiveLine
@@ -31,7 +30,6 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
 
         for file in words.outputs:
             check_run_suffix(file)
-    find_planner(words.planner)
     peg_error = () if words.peg_error is None else (f"peg_error={words.peg_error}",)
     noise = (*(words.noise or ()), *peg_error)
     with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
@@ -47,7 +45,7 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             motors=words.plant,
             log=words.log(line.say),
         )
-        dynamics.check(work.item, asked)
+        work.check(asked)
         if words.report is not None:
             open_report(words.report, dynamics.kind)
         announce_compilation(quiet=words.quiet)

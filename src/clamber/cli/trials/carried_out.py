@@ -8,7 +8,6 @@ from typing import Any
 import typer
 
 from ...json_form import Jsonable, plain
-from ...planning.planners import find_planner
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
 from ...terminal.live_line import LiveLine
@@ -84,7 +83,6 @@ def _request(work: Work, asked: TrialsOptions, words: WorkerOptions, law: str | 
         from ...viewing.pictures import check_run_suffix
 
         (dynamics.check_picture if asked.replay is None else check_run_suffix)(words.output)
-    find_planner(asked.planner)
     request = TrialsRequest(
         planner=asked.planner,
         plan_seconds=asked.seconds,
@@ -95,7 +93,7 @@ def _request(work: Work, asked: TrialsOptions, words: WorkerOptions, law: str | 
         force=asked.force,
         faults=tuple(asked.fault or ()),
     )
-    dynamics.check(work.item, request)
+    work.check(request)
     return request
 
 

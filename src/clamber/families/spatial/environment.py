@@ -15,10 +15,10 @@ from gymnasium import spaces
 
 from ...control.whole_body.tree import State
 from ...errors import ClamberError
-from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
 from ...planning.problem.plan_source import open_plan
 from ...tasks import load_task
+from ...trials.dynamics import Conditions, RunEvents
 from ...types import Floats, Ints
 from .control.believed_tree import believed_tree
 from .execution.course import Course, Regrab, Standing
@@ -27,6 +27,7 @@ from .planning.task import SpatialTask
 from .sim.spatial_flaws import SpatialFlaws
 from .sim.spatial_plant import SpatialSim
 from .trials.noise import named_spatial_noise, read_spatial_noise
+from .trials.planning import found_plan
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -36,7 +37,7 @@ NEAR: Final = 0.03
 TURNED: Final = 0.15
 """... and this angle [rad]."""
 LOST: Final = 0.3
-"""A body that is farther from its stance than this part of the length of its longest limb has fallen [-]."""
+"""A body that is farther from the straight way between two stances than this part of the length of its longest limb has fallen [-]."""
 FULL: Final = 10.0
 """Reward of a whole plan."""
 PULL: Final = 1.0
@@ -51,9 +52,24 @@ FALL: Final = -1.0
 class Goal:
     """What the plan asks for next."""
 
+    start: Standing
+    """Where the plan has the robot before ..."""
     standing: Standing
+    """... and then."""
     limb: int
     """That is to take a hold; -1: the body is to move."""
+
+    def astray(self, position: Floats) -> float:
+        """How far a body is from the straight way between both [m]."""
+        begin = self.start.pose.position
+        way = self.standing.pose.position - begin
+        gone = position - begin
+        square, part = float(way @ way), 0.0
+        if square > 0.0:
+            part = float(gone @ way) / square
+            part = min(1.0, max(0.0, part))
+        off = gone - part * way
+        return float(np.linalg.norm(off))
 
 
 class SpatialEnv(gymnasium.Env[Any, Any]):
@@ -88,28 +104,35 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         robot, world = self.task.robot, self.task.world
         course = Course.of(self.task, self.plan)
         self.start = course.start
-        self._goals = _goals(course)
+        self.goals: Final = _goals(course)
+        """What the plan asks for, one after another."""
         self._tree = believed_tree(robot, world.gravity)
         self._state = State.of(self._tree)
         chains = robot.chains
         self._limbs, self._n = len(chains.limb_names), self._tree.joints
-        self._size = float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max())
+        self.size = float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max())
+        """Length of the longest limb [m]."""
         self._pull = chains.total_mass * 9.80665
         self._ends = [end.bears().capture > 0.0 for end in robot.ends]
         self.plant = SpatialSim(robot, world)
         self.torques: Floats = self.plant.motors.torque.copy()
         """Largest torque of each joint [N m] or force [N], shape (n,)."""
         actions = max(len(self.plan.actions), 1)
-        self._most = math.ceil((2.0 * actions if seconds is None else seconds) / (ticks * self.plant.period))
+        self._most = math.ceil((2.0 * actions if seconds is None else seconds) / self.period)
         self._at, self._steps, self._away = 0, 0, 0.0
         self.action_space = spaces.Box(-1.0, 1.0, (self._n + self._limbs,), np.float32)
         shape = self._observed().shape
         self.observation_space = spaces.Box(-np.inf, np.inf, shape, np.float32)
 
     @property
+    def period(self) -> float:
+        """That an action lasts [s]."""
+        return self._ticks * self.plant.period
+
+    @property
     def progress(self) -> float:
         """Part of the plan that has been carried out [-]."""
-        return self._at / max(len(self._goals), 1)
+        return self._at / max(len(self.goals), 1)
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
@@ -154,21 +177,22 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             self._believe()
         self._steps += 1
         before = self._at
-        while self._at < len(self._goals) and self._reached(self._goals[self._at]):
+        while self._at < len(self.goals) and self._reached(self.goals[self._at]):
             self._at += 1
-        reward = FULL * (self._at - before) / len(self._goals)
+        reward = FULL * (self._at - before) / len(self.goals)
         away = self._distance()
-        reward += PULL * (self._away - away) / self._size if self._at == before else 0.0
+        reward += PULL * (self._away - away) / self.size if self._at == before else 0.0
         self._away = away
-        reward -= STRAIN * self._ticks * self.plant.period * float(np.mean(asked[: self._n] ** 2))
-        done = self._at == len(self._goals)
-        fell = not done and (away > LOST * self._size or not (self._holding() >= 0).any())
+        reward -= STRAIN * self.period * float(np.mean(asked[: self._n] ** 2))
+        done = self._at == len(self.goals)
+        astray = self._goal().astray(self._state.position)
+        fell = not done and (astray > LOST * self.size or not (self._holding() >= 0).any())
         reward += FALL if fell else 0.0
         told = {"progress": self.progress, "done": done, "fell": fell}
         return self._observed(), float(reward), done or fell, self._steps >= self._most, told
 
     def _goal(self) -> Goal:
-        return self._goals[min(self._at, len(self._goals) - 1)]
+        return self.goals[min(self._at, len(self.goals) - 1)]
 
     def _holding(self) -> Ints:
         return self.plant.ends.attached
@@ -188,7 +212,7 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         turned = self._state.rotation @ goal.standing.pose.rotation.T
         angle = math.acos(min(1.0, max(-1.0, (float(np.trace(turned)) - 1.0) / 2.0)))
         away = float(np.linalg.norm(goal.standing.pose.position - self._state.position))
-        return away < NEAR * self._size and angle < TURNED
+        return away < NEAR * self.size and angle < TURNED
 
     def _observed(self) -> np.ndarray[Any, np.dtype[np.float32]]:
         """What the robot knows, in its own frame, lengths by its size and forces by its weight."""
@@ -199,24 +223,31 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         limbs = np.zeros(self._limbs)
         if goal.limb >= 0:
             limbs[goal.limb] = 1.0
-            hold = turn @ (self._belief_places()[aim.holds[goal.limb]] - state.position) / self._size
+            hold = turn @ (self._belief_places()[aim.holds[goal.limb]] - state.position) / self.size
         down = np.array(self.task.world.gravity)
+        towards = aim.pose.position - state.position
+        turned = (
+            wanted[2, 1] - wanted[1, 2],
+            wanted[0, 2] - wanted[2, 0],
+            wanted[1, 0] - wanted[0, 1],
+        )
         parts = (
             state.joints,
             state.speed[6:],
-            turn @ state.speed[:3] / self._size,
+            turn @ state.speed[:3] / self.size,
             state.speed[3:6],
             turn @ down / max(float(np.linalg.norm(down)), 1e-9),
             sensed.wrenches[:, :3].ravel() / self._pull,
             sensed.closed,
             aim.joints - state.joints,
-            turn @ (aim.pose.position - state.position) / self._size,
-            0.5 * np.array((wanted[2, 1] - wanted[1, 2], wanted[0, 2] - wanted[2, 0], wanted[1, 0] - wanted[0, 1])),
+            turn @ towards / self.size,
+            0.5 * np.array(turned),
             limbs,
             hold,
             [self.progress],
         )
-        return np.concatenate([np.asarray(part, np.float64) for part in parts]).astype(np.float32)
+        told = [np.ravel(part) for part in parts]
+        return np.concatenate(told, dtype=np.float32, casting="same_kind")
 
     def _belief_places(self) -> Floats:
         return self._belief.places if hasattr(self, "_belief") else self.task.world.places
@@ -224,17 +255,24 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
 
 def _goals(course: Course) -> tuple[Goal, ...]:
     """Stances that a plan comes to, one for each motion."""
-    return tuple(
-        Goal(motion.after, motion.limb) if isinstance(motion, Regrab) else Goal(motion.way[-1], -1)
-        for motion in course.motions
-    )
+    goals = []
+    for motion in course.motions:
+        if isinstance(motion, Regrab):
+            start, end = motion.before, motion.after
+            limb = motion.limb
+        else:
+            start, end = motion.start, motion.way[-1]
+            limb = -1
+        goals.append(Goal(start, end, limb))
+    return tuple(goals)
 
 
 def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tuple[SpatialTask, Plan]:
     """A task and its plan.
 
     Raises:
-        ClamberError: If there is no such task or plan, if it is no robot in space's, or if no plan was found.
+        NoPlanError: If none was found.
+        ClamberError: If there is no such task or plan, or if it is no robot in space's.
     """
     if isinstance(plan, str):
         opened = open_plan(plan, name, list(settings))
@@ -243,12 +281,7 @@ def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tup
         task = load_task(name, list(settings))
     if not isinstance(task, SpatialTask):
         raise NotInSpaceError(name)
-    if plan is None:
-        result = plan_task(task, "auto", seed=0, seconds=600.0)
-        if not result.has_plan:
-            raise NoReferenceError(name, result.reason)
-        plan = result.plan
-    return task, plan
+    return task, found_plan(task, Conditions(), RunEvents(), seed=0) if plan is None else plan
 
 
 class NotInSpaceError(ClamberError):
@@ -260,17 +293,6 @@ class NotInSpaceError(ClamberError):
 
     def __str__(self) -> str:
         return f"task '{self.task}': environments are of robots in space, such as 'wall-gripper' or 'stones-quadruped'"
-
-
-class NoReferenceError(ClamberError):
-    """There is no plan to follow."""
-
-    def __init__(self, task: str, problem: str) -> None:
-        super().__init__(task, problem)
-        self.task, self.problem = task, problem
-
-    def __str__(self) -> str:
-        return f"task '{self.task}': an environment follows a plan, and none was found: {self.problem}"
 
 
 def register() -> None:

@@ -62,6 +62,10 @@ class ActionError(Exception):
         self.key, self.allowed = key, allowed
 
 
+SAME: Final = 1e-6
+"""Moves that differ from a step by less than this part of it are that step."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PlanCost:
     """A cost, and the feature that counts it."""
@@ -205,6 +209,23 @@ class PlanFamily(ABC):
     def lattice(self, task: Any, problem: CompiledProblem) -> PoseLattice:
         """The lattice of the body's poses that moves lead to."""
         return plane_lattice(task, int(problem.params.record["turn_ticks"]) // TICKS)
+
+    def move_delta(self, task: Any, argument: int) -> tuple[float, ...]:
+        """What the body move of argument 0..5 (+x -x +y -y +theta -theta) changes, in a plane: [m, m, rad]."""
+        delta = [0.0, 0.0, 0.0]
+        delta[argument >> 1] = (1.0 - 2.0 * (argument & 1)) * (task.step.angle if argument >= 4 else task.step.length)
+        return tuple(delta)
+
+    def move_argument(self, task: Any, delta: tuple[float, ...] | None) -> int:
+        """Which argument 0..5 stands for a body's move in a plane; raises `ActionError` where none does."""
+        length, angle = task.step.length, task.step.angle
+        if delta is not None and len(delta) == 3:
+            for argument in range(6):
+                off = np.abs(np.subtract(delta, self.move_delta(task, argument)))
+                if np.all(off <= SAME * np.array((length, length, angle))):
+                    return argument
+        allowed = f"must be one step along one axis: {length:.6g} m in x or y, or {angle:.6g} rad, either way"
+        raise ActionError("delta", allowed)
 
     def holds(self, task: Any, stance: np.void) -> dict[str, int]:
         """Limb name -> number of its hold, 0 if it is free; empty where nothing is held."""

@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from ....shown_units import SI, ShownUnits
+from ....trials.sensitivity import VERDICTS, Effect
 from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.style import bare, styled
 from ..trials.noise import NOISE
-from ..trials.sensitivity import VERDICTS, Effect
 from ..trials.trial_summary import Spread, TrialSummary
 
 APART: Final = 0.05

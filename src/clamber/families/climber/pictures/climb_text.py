@@ -8,11 +8,10 @@ from rich.console import Console
 from ....shown_units import SI, ShownUnits, units_of
 from ....trials.held_out import seeds_in_words
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import percent, print_causes, print_faults
+from ....viewing.trials_text import percent, print_causes, print_effects, print_faults
 from ..execution.climb_report import ActionReport
 from ..trials.noise import NOISE
 from ..trials.run_plan import ClimbRun
-from ..trials.sensitivity import VERDICTS, Effect, Third
 from ..trials.trial_summary import Spread, TrialSummary
 
 
@@ -114,35 +113,7 @@ def print_trials(console: Console, summary: TrialSummary, seeds: Sequence[int], 
     if summary.faults:
         print_faults(console, summary.faults)
     if summary.effects:
-        _print_effects(console, summary.effects)
-
-
-def _print_effects(console: Console, effects: tuple[Effect, ...]) -> None:
-    """Success by thirds of each key, and where it fails more, if that can be told."""
-    if all(effect.verdict == "too few" for effect in effects):
-        console.print(f"{VERDICTS['too few']} what of the noise matters")
-        return
-    thirds = ("low third", "middle", "high")
-    table = plain_table("success [%] by", "drawn", *thirds, right=thirds)
-    for effect in effects:
-        table.add_row(effect.key, _reach(effect), *[*map(_third, effect.thirds), "", ""][:3])
-    console.print(table)
-    clear = [effect for effect in effects if effect.verdict != "none"]
-    for effect in clear:
-        console.print(f"{effect.key} {VERDICTS[effect.verdict]} (p = {effect.p:.2g})")
-    if not clear:
-        console.print("no key stands out (rank tests at 5 % over all of them)")
-
-
-def _third(third: Third) -> str:
-    low, high = third.interval
-    return f"{100.0 * third.done / third.n:.0f} ({100.0 * low:.0f}-{100.0 * high:.0f})"
-
-
-def _reach(effect: Effect) -> str:
-    kind = NOISE[effect.key]
-    low, high = effect.thirds[0].low / kind.scale, effect.thirds[-1].high / kind.scale
-    return f"{low:.2g}..{high:.2g} {kind.unit}"
+        print_effects(console, summary.effects, NOISE)
 
 
 def _times(spread: Spread) -> str:

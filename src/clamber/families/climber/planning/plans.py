@@ -24,8 +24,6 @@ from .task import LimbedTask
 
 LARGEST_PEG: Final = 90
 """The thesis's numbers name holds up to this one; N91 and up mean the nearest ones."""
-SAME: Final = 1e-6
-"""Moves that differ from a step by less than this part of it are that step."""
 
 
 class LimbedPlans(PlanFamily):
@@ -76,7 +74,7 @@ class LimbedPlans(PlanFamily):
             return PlannedAction(kind="none", code=self._number(task, 0), gene=gene)
         if opened.kind == "move":
             number = self._number(task, 1 + opened.argument)
-            return PlannedAction(kind="move", delta=move_delta(task, opened.argument), code=number, gene=gene)
+            return PlannedAction(kind="move", delta=self.move_delta(task, opened.argument), code=number, gene=gene)
         limb = task.robot.limb_names[opened.limb]
         base = 100 * (opened.limb + 1)
         if opened.kind == "release":
@@ -99,7 +97,7 @@ class LimbedPlans(PlanFamily):
         if action.kind == "none":
             return pack(NONE)
         if action.kind == "move":
-            return pack(MOVE, 0, _axis(task, action.delta))
+            return pack(MOVE, 0, self.move_argument(task, action.delta))
         names = task.robot.limb_names
         if action.limb not in names:
             allowed = f"must be a limb of robot '{task.robot.name}': {describe_choices(str(action.limb), names)}"
@@ -176,14 +174,6 @@ def has_numbers(task: LimbedTask) -> bool:
     return len(task.robot.limbs) <= 9 and task.world.holds[-1].number <= LARGEST_PEG
 
 
-def move_delta(task: LimbedTask, argument: int) -> tuple[float, float, float]:
-    """What the body move of argument 0..5 (+x -x +y -y +theta -theta) changes: [m, m, rad]."""
-    sign = 1.0 - 2.0 * (argument & 1)
-    delta = [0.0, 0.0, 0.0]
-    delta[argument >> 1] = sign * (task.step.angle if argument >= 4 else task.step.length)
-    return delta[0], delta[1], delta[2]
-
-
 def hold_code(task: LimbedTask, limb: int, number: int) -> int:
     """The packed code of a limb's grab of the hold with a number.
 
@@ -196,18 +186,6 @@ def hold_code(task: LimbedTask, limb: int, number: int) -> int:
         listed = f"it has {len(holds)}, from {holds[0].number} to {holds[-1].number}"
         raise ActionError("hold", f"board '{task.world.name}' has no hold {number}; {listed}")
     return pack(HOLD, limb, index)
-
-
-def _axis(task: LimbedTask, delta: tuple[float, ...] | None) -> int:
-    length, angle = task.step.length, task.step.angle
-    if delta is not None and len(delta) == 3:
-        for argument in range(6):
-            meant = move_delta(task, argument)
-            sizes = (length, length, angle)
-            if all(abs(a - b) <= SAME * size for a, b, size in zip(delta, meant, sizes, strict=True)):
-                return argument
-    allowed = f"must be one step along one axis: {length:.6g} m in x or y, or {angle:.6g} rad, either way"
-    raise ActionError("delta", allowed)
 
 
 def _unresolved(limb: int, gene: str | None) -> int:

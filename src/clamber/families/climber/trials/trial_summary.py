@@ -8,10 +8,11 @@ import numpy as np
 
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....trials.fault_trials import FaultRow, fault_rows
+from ....trials.sensitivity import Effect, find_effects
 from ....trials.trial_runs import wilson_interval
 from ....units import INCH
 from ..execution.executable_plan import ExecutablePlan, lay_course, names_of
-from .sensitivity import Effect, find_effects
+from .noise import NOISE
 from .trial import ClimbTrials
 
 WAY: Final = 6.0 * INCH
@@ -141,7 +142,7 @@ def sum_up(trials: ClimbTrials) -> TrialSummary:
         recovering=len(recovering),
         saved=sum(trial.done for trial in recovering),
         forced=tuple(names_of(course.objections)),
-        effects=() if trials.setup.faults else tuple(find_effects(ended)),
+        effects=() if trials.setup.faults else tuple(find_effects(NOISE, ended)),
         faults=fault_rows(ended) if trials.setup.faults else (),
     )
 

@@ -7,7 +7,8 @@ from rich.console import Console
 
 from ....trials.held_out import seeds_in_words
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import print_causes
+from ....viewing.trials_text import print_causes, print_effects
+from ..trials.noise import SPATIAL_NOISE
 from ..trials.trials import SpatialTrials
 
 SPREAD = ("median", "5 %", "95 %", "least", "most")
@@ -38,6 +39,9 @@ def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequenc
             told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
             table.add_row(title, *(f"{value:.{digits}f}" for value in told))
     console.print(table)
+    effects = trials.effects()
+    if effects:
+        print_effects(console, effects, SPATIAL_NOISE)
     ran = float(trials.of("seconds").sum())
     if trials.wall_seconds > 0.0:
         console.print(

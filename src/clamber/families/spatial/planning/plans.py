@@ -11,7 +11,7 @@ from ....planning.problem.body_pose import SPACE, PoseLattice
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NONE, Code, pack
 from ....planning.problem.problem import CompiledProblem, Records
-from ....planning.problem.problems import ActionError, PlanCost, PlanFamily, PlannedAction, Posed
+from ....planning.problem.problems import SAME, ActionError, PlanCost, PlanFamily, PlannedAction, Posed
 from ....types import Floats
 from .checks import SPATIAL_CHECKS
 from .problem import MOVE_NAMES, SpatialProblem, code_limits
@@ -19,8 +19,6 @@ from .records import AXES
 from .robot_arrays import robot_arrays
 from .task import SpatialTask
 
-SAME: Final = 1e-6
-"""Moves that differ from a step by less than this part of it are that step."""
 NEAR_MOVES: Final = 2 * AXES
 """Moves of one step along each axis, either way; those behind them are the far ones."""
 
@@ -80,7 +78,7 @@ class SpatialPlans(PlanFamily):
         """A packed code as a named action, its hold read from the stance that it led to."""
         opened = Code.of(code)
         if opened.kind == "move":
-            return PlannedAction(kind="move", delta=tuple(move_delta(task, opened.argument).tolist()), gene=gene)
+            return PlannedAction(kind="move", delta=self.move_delta(task, opened.argument), gene=gene)
         if opened.kind == "none":
             return PlannedAction(kind="none", gene=gene)
         return PlannedAction(
@@ -100,7 +98,7 @@ class SpatialPlans(PlanFamily):
         if action.kind == "none":
             return pack(NONE)
         if action.kind == "move":
-            return pack(MOVE, 0, _argument(task, action.delta))
+            return pack(MOVE, 0, self.move_argument(task, action.delta))
         if action.kind == "grab":
             if action.limb not in names:
                 raise ActionError("limb", f"must be a limb: {describe_choices(str(action.limb), names)}")
@@ -116,6 +114,30 @@ class SpatialPlans(PlanFamily):
             return MOVE_NAMES[opened.argument]
         limb = task.robot.chains.limb_names[opened.limb]
         return f"{limb} {'nearest' if opened.kind == 'nearest' else 'to'} {opened.argument + 1}"
+
+    def move_delta(self, task: SpatialTask, argument: int) -> tuple[float, ...]:
+        """What the move of an argument changes: along, across, height [m], yaw, pitch, roll [rad]."""
+        step, delta = task.step, np.zeros(AXES)
+        times = 1 if argument < NEAR_MOVES else step.far
+        axis = argument % NEAR_MOVES >> 1
+        size = (step.length, step.length, step.height, step.angle, step.tilt, step.tilt)[axis]
+        delta[axis] = (1 - 2 * (argument & 1)) * times * size
+        return tuple(delta.tolist())
+
+    def move_argument(self, task: SpatialTask, delta: tuple[float, ...] | None) -> int:
+        """Which argument stands for a body's move; raises `ActionError` where none does."""
+        step = task.step
+        sizes = np.array([step.length, step.length, step.height, step.angle, step.tilt or 1.0, step.tilt or 1.0])
+        if delta is not None and len(delta) == AXES and any(delta):
+            for argument in range(len(MOVE_NAMES)):
+                if np.all(np.abs(np.subtract(delta, self.move_delta(task, argument))) <= SAME * sizes):
+                    return argument
+        tilts = f", {step.tilt:.6g} rad of pitch or roll" if step.tilt else ""
+        allowed = (
+            f"must be along, across, height, yaw, pitch, roll with one step along one axis: {step.length:.6g} m or {step.far} times that "
+            f"along or across, {step.height:.6g} m of height, {step.angle:.6g} rad of yaw{tilts}, either way"
+        )
+        raise ActionError("delta", allowed)
 
     pose_axes = SPACE
 
@@ -154,31 +176,6 @@ def poses_of(task: SpatialTask, stances: Records) -> Floats:
     return np.column_stack(
         (stances["x"], stances["y"], height, stances["angle"], lattice.tilt * steps[:, 4], lattice.tilt * steps[:, 5])
     )
-
-
-def move_delta(task: SpatialTask, argument: int) -> Floats:
-    """What the move of an argument changes: along, across, height [m], yaw, pitch, roll [rad]."""
-    step, delta = task.step, np.zeros(AXES)
-    times = 1 if argument < NEAR_MOVES else step.far
-    axis = argument % NEAR_MOVES >> 1
-    size = (step.length, step.length, step.height, step.angle, step.tilt, step.tilt)[axis]
-    delta[axis] = (1 - 2 * (argument & 1)) * times * size
-    return delta
-
-
-def _argument(task: SpatialTask, delta: tuple[float, ...] | None) -> int:
-    step = task.step
-    sizes = np.array([step.length, step.length, step.height, step.angle, step.tilt or 1.0, step.tilt or 1.0])
-    if delta is not None and len(delta) == AXES and any(delta):
-        for argument in range(len(MOVE_NAMES)):
-            if np.all(np.abs(np.subtract(delta, move_delta(task, argument))) <= SAME * sizes):
-                return argument
-    tilts = f", {step.tilt:.6g} rad of pitch or roll" if step.tilt else ""
-    allowed = (
-        f"must be along, across, height, yaw, pitch, roll with one step along one axis: {step.length:.6g} m or {step.far} times that "
-        f"along or across, {step.height:.6g} m of height, {step.angle:.6g} rad of yaw{tilts}, either way"
-    )
-    raise ActionError("delta", allowed)
 
 
 PLANS: Final = SpatialPlans()

@@ -10,6 +10,19 @@ from .end_kernels import mean_motion
 from .spatial_flaws import SpatialFlaws
 
 
+def drawn_biases(flaws: SpatialFlaws, chance: np.random.Generator) -> Floats:
+    """What each axis tells too much during a whole run: angular velocity [rad/s], then specific force [m/s^2], shape (6,)."""
+    spread = np.empty(6)
+    spread[:3] = flaws.gyro_bias
+    spread[3:] = flaws.accelerometer_bias
+    return spread * chance.standard_normal(6)
+
+
+def chance_of(flaws: SpatialFlaws) -> np.random.Generator:
+    """The stream of a unit's biases and noise."""
+    return np.random.default_rng([flaws.seed or 0, 2])
+
+
 class Imu:
     """Gyro and accelerometer of a simulated robot.
 
@@ -28,7 +41,6 @@ class Imu:
         self._write_axes: Final = mujoco.mju_quat2Mat
         self._flaws, self._qpos, self._qvel, self._gravity = flaws, data.qpos, data.qvel, gravity
         self._spread: Final = np.repeat((flaws.gyro_noise, flaws.accelerometer_noise), 3)
-        self._biases: Final = np.repeat((flaws.gyro_bias, flaws.accelerometer_bias), 3)
         self._ring = np.zeros((flaws.late + 1, 6))
         self._mean, self._now = np.zeros(6), np.zeros(9)
         self._axes: Final = self._now.reshape(3, 3)
@@ -36,8 +48,8 @@ class Imu:
 
     def reset(self) -> None:
         """Forget all readings, and draw the biases anew; the robot is at rest."""
-        self._chance = np.random.default_rng([self._flaws.seed or 0, 2])
-        self._bias = self._biases * self._chance.standard_normal(6)
+        self._chance = chance_of(self._flaws)
+        self._bias = drawn_biases(self._flaws, self._chance)
         self._ring[:] = 0.0
         self._tick = 0
         self._turn, self._velocity = rotation(self._qpos[3:7]), self._qvel[:3].copy()

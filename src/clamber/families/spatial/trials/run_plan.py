@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Protocol
 
 from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
@@ -19,6 +19,7 @@ from ..execution.carrying import Carrying, Replan
 from ..execution.carrying_report import CarryingReport
 from ..execution.course import Course
 from ..execution.estimated_base import EstimatedBase
+from ..execution.plant import SpatialPlant
 from ..execution.run_trace import TOPIC, RunTrace, TracedBody
 from ..execution.settings import Pace
 from ..execution.space_scene import space_scene
@@ -77,7 +78,15 @@ class Control:
     """Makes another plan for the rest of a task where a hold cannot be had; None: none is made."""
 
 
-def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[TracedBody] = TracedBody) -> TracedBody:
+class KnownPlant(SpatialPlant, Protocol):
+    """A plant whose data sheets are at hand."""
+
+    @property
+    def flaws(self) -> SpatialFlaws:
+        """Of its gears, motors and sensors."""
+
+
+def body_of(task: SpatialTask, plant: KnownPlant, law: str, kind: type[TracedBody] = TracedBody) -> TracedBody:
     """The robot of a run, which estimates where it is.
 
     Args:
@@ -91,8 +100,8 @@ def body_of(task: SpatialTask, plant: SpatialSim, law: str, kind: type[TracedBod
         task.robot,
         task.world,
         believed_tree(task.robot, task.world.gravity),
-        plant.period,
-        late=sensors.late * plant.period,
+        sensors.period,
+        late=sensors.late * sensors.period,
         coarse=sensors.encoder_step > 0.0,
         play=sensors.backlash,
     )

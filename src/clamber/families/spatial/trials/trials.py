@@ -13,12 +13,14 @@ from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
+from ....trials.sensitivity import Effect, find_effects
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..control.laws import USUAL
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
-from .noise import SpatialNoise
+from .drawn import drawn
+from .noise import SPATIAL_NOISE, SpatialNoise
 from .planning import replanner
 from .run_plan import Control, SpatialRun, run_plan
 
@@ -49,6 +51,8 @@ class SpatialTrial(Jsonable):
     """Plans made on the way."""
     wall_seconds: float
     """That it took."""
+    drawn: dict[str, float]
+    """Deviation of each key of the noise that is drawn, of holds those that the plan takes; empty where it raised."""
 
     @property
     def fault(self) -> None:
@@ -77,8 +81,8 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
     )
 
 
-def judged(seed: int, run: SpatialRun) -> SpatialTrial:
-    """What is kept of a run."""
+def judged(seed: int, run: SpatialRun, noise: SpatialNoise) -> SpatialTrial:
+    """What is kept of a run under a noise."""
     report, lost = run.report, None
     if report.pose is not None and report.true_pose is not None:
         lost = float(np.linalg.norm(np.subtract(report.pose[:3], report.true_pose[:3])))
@@ -94,12 +98,13 @@ def judged(seed: int, run: SpatialRun) -> SpatialTrial:
         breaks=len(run.broken),
         replans=len(report.replans),
         wall_seconds=run.wall_seconds,
+        drawn=drawn(noise, run.task, run.plan, seed),
     )
 
 
 def run_spatial_trial(item: Json) -> Json:
     """One run, as `SpatialTrial.to_json`; runs in a worker."""
-    return judged(item["seed"], run_once(item)).to_json()
+    return judged(item["seed"], run_once(item), SpatialNoise(item["noise"])).to_json()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -183,6 +188,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
             breaks=0,
             replans=0,
             wall_seconds=0.0,
+            drawn={},
         )
 
     def again(
@@ -190,7 +196,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     ) -> tuple[SpatialRun, SpatialTrial]:
         """One run again."""
         run = run_once(self.item(seed), step)
-        return run, judged(seed, run)
+        return run, judged(seed, run, self.noise)
 
 
 @dataclass(slots=True)
@@ -209,7 +215,7 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     ]
     asked: Count
     """How many there are to be."""
-    ended: Annotated[list[SpatialTrial], Key("trials", after="causes")]
+    ended: Annotated[list[SpatialTrial], Key("trials", after="effects")]
     wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the runs that ended."""
 
@@ -217,6 +223,11 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     def causes(self) -> tuple[Cause, ...]:
         """Why runs ended early, the commonest first."""
         return causes_of(self.ended, attrgetter("reason"), attrgetter("actions"))
+
+    @in_json(after="causes")
+    def effects(self) -> tuple[Effect, ...]:
+        """What each key of the noise did to success; of keys that are the same in each run nothing."""
+        return tuple(find_effects(SPATIAL_NOISE, self.ended))
 
     def of(self, name: str) -> Floats:
         """A number of all runs that have it."""

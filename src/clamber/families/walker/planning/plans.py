@@ -14,9 +14,6 @@ from ..statics.checks import WALKER_CHECKS
 from .problem import MOVES, WalkerProblem, stride_lengths, walker_limits, walker_table
 from .task import WalkerTask
 
-SAME = 1e-6
-"""Moves that differ from a step by less than this part of it are that step."""
-
 
 class WalkerPlans(PlanFamily):
     """How plans of two-frame walkers are named, replayed and reported; limbs are frames, and nothing is held."""
@@ -57,7 +54,7 @@ class WalkerPlans(PlanFamily):
         opened = Code.of(code)
         lifted = FRAMES[1 - int(after["stands"])]
         if opened.kind == "move":
-            return PlannedAction(kind="move", limb=lifted, delta=_delta(task, opened.argument), gene=gene)
+            return PlannedAction(kind="move", limb=lifted, delta=self.move_delta(task, opened.argument), gene=gene)
         if opened.kind == "release":
             return PlannedAction(kind="release", limb=lifted, gene=gene)
         return PlannedAction(kind="none", gene=gene)
@@ -75,7 +72,7 @@ class WalkerPlans(PlanFamily):
         if action.kind == "release":
             return pack(RELEASE)
         if action.kind == "move":
-            return pack(MOVE, 0, _axis(task, action.delta))
+            return pack(MOVE, 0, self.move_argument(task, action.delta))
         raise ActionError("kind", "a walker's actions are none, move and release")
 
     def module(self, task: WalkerTask, code: int) -> str:
@@ -93,27 +90,6 @@ class WalkerPlans(PlanFamily):
             "time": PlanCost(feature="effort", title="takes", unit="s", digits=0),
             "strain": PlanCost(feature="peak", title="nearest to a singular place", unit="of 1", digits=2),
         }
-
-
-def _delta(task: WalkerTask, argument: int) -> tuple[float, float, float]:
-    """What the move of argument 0..5 (+x -x +y -y +theta -theta) changes: [m, m, rad]."""
-    sign = 1.0 - 2.0 * (argument & 1)
-    delta = [0.0, 0.0, 0.0]
-    delta[argument >> 1] = sign * (task.step.angle if argument >= 4 else task.step.length)
-    return delta[0], delta[1], delta[2]
-
-
-def _axis(task: WalkerTask, delta: tuple[float, ...] | None) -> int:
-    sizes = np.array([task.step.length, task.step.length, task.step.angle])
-    for argument in range(6):
-        if (
-            delta is not None
-            and len(delta) == 3
-            and np.all(np.abs(np.subtract(delta, _delta(task, argument))) <= SAME * sizes)
-        ):
-            return argument
-    allowed = f"must be one step along one axis: {sizes[0]:.6g} m in x or y, or {sizes[2]:.6g} rad, either way"
-    raise ActionError("delta", allowed)
 
 
 PLANS: Final = WalkerPlans()

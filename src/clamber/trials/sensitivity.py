@@ -1,16 +1,14 @@
-"""What a failed climb had that others had not: each key of the noise by thirds, and whether its rank tells failures from successes."""
+"""What a failed run had that others had not: each key of the noise by thirds, and whether its rank tells failures from successes."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Final
+from typing import Annotated, Final, Protocol
 
 import numpy as np
 
-from ....json_form import Count, Jsonable, Key, OrNull, in_json
-from ....trials.trial_runs import wilson_interval
-from .noise import NOISE
-from .trial import ClimbTrial
+from ..json_form import Count, Jsonable, Key, OrNull, in_json
+from .trial_runs import Trial, wilson_interval
 
 LEVEL: Final = 0.05
 """Chance that any key of a campaign is wrongly said to matter [-]."""
@@ -25,9 +23,17 @@ VERDICTS: Final = {
 """Verdict -> in words."""
 
 
+class DrawnTrial(Trial, Protocol):
+    """A run that tells what its seed drew."""
+
+    @property
+    def drawn(self) -> dict[str, float]:
+        """One number for each key of the noise, in SI; empty where it raised."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Third(Jsonable):
-    """A third of the climbs, by what one key drew."""
+    """A third of the runs, by what one key drew."""
 
     low: float
     """Least deviation in it, in SI."""
@@ -51,27 +57,28 @@ class Effect(Jsonable):
     thirds: tuple[Third, ...]
     """From low to high deviations."""
     share: OrNull
-    """Chance that a failed climb drew more than one that was carried out, 0.5 if it makes no difference [-]; NaN without both."""
+    """Chance that a failed run drew more than one that was carried out, 0.5 if it makes no difference [-]; NaN without both."""
     p: OrNull
     """Of the clearer of two rank tests (by deviation, and by its size), corrected for all tests of all keys [-]; NaN without both."""
     verdict: Annotated[str, Key(get=VERDICTS.__getitem__, meaning="In words.")]
     """Key of `VERDICTS`."""
 
 
-def find_effects(trials: Sequence[ClimbTrial]) -> list[Effect]:
+def find_effects(keys: Iterable[str], trials: Sequence[DrawnTrial]) -> list[Effect]:
     """The effect of each key that was drawn at all.
 
-    Failed and successful climbs are told apart by Mann and Whitney's rank test, once by the deviation and once by its size (a key whose
+    Failed and successful runs are told apart by Mann and Whitney's rank test, once by the deviation and once by its size (a key whose
     both ends are bad shows in the second alone). Holm's correction over all these tests keeps the chance of any wrong verdict at
     `LEVEL`. Where not even a perfect order of so few failures could pass it, the verdict is "too few".
 
     Args:
+        keys: Of the noise, in the order in which they are told.
         trials: Those that drew; trials that raised are left out.
     """
     from scipy.stats import mannwhitneyu
 
     drew = [trial for trial in trials if trial.drawn]
-    keys = [key for key in NOISE if any(trial.drawn.get(key, 0.0) != 0.0 for trial in drew)]
+    keys = [key for key in keys if any(trial.drawn.get(key, 0.0) != 0.0 for trial in drew)]
     failed = np.array([not trial.done for trial in drew], bool)
     bad, good = int(failed.sum()), int((~failed).sum())
     tests: dict[tuple[str, bool], tuple[float, float]] = {}
@@ -99,7 +106,7 @@ def find_effects(trials: Sequence[ClimbTrial]) -> list[Effect]:
     return effects
 
 
-def _thirds(trials: Sequence[ClimbTrial], key: str) -> tuple[Third, ...]:
+def _thirds(trials: Sequence[DrawnTrial], key: str) -> tuple[Third, ...]:
     ordered = sorted(trials, key=lambda trial: trial.drawn[key])
     parts = [part for part in np.array_split(np.arange(len(ordered)), 3) if len(part)]
     return tuple(
