@@ -167,6 +167,10 @@ class SpatialSim:
         """See `SpatialPlant`."""
         self.ends.grip(limb, close)
 
+    def weaken(self, hold: int, strength: float) -> None:
+        """Have a hold, by its number, give way to a pull above `strength` [N], until the next reset."""
+        self.ends.weaken(hold - 1, strength)
+
     def push(self, wrench: Floats) -> None:
         """Push the base until the next call or reset: force on its centre of mass [N], and moment [N m], world frame, shape (6,)."""
         self._pushed[:] = wrench

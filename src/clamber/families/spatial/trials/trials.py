@@ -8,14 +8,17 @@ from typing import Annotated, Final
 
 import numpy as np
 
+from ....execution.fault import draw_fault
 from ....jobs import read_result
 from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
+from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..control.laws import USUAL
+from ..execution.faulty_spatial import BEGINS, failing_of
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import read_spatial_flaws
 from .noise import SpatialNoise
@@ -49,11 +52,8 @@ class SpatialTrial(Jsonable):
     """Plans made on the way."""
     wall_seconds: float
     """That it took."""
-
-    @property
-    def fault(self) -> None:
-        """There are none."""
-        return None
+    fault: Annotated[Json | None, Key(kind=TriedFault)] = None
+    """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
 
 def run_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> SpatialRun:
@@ -66,12 +66,14 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
         if step is not None:
             step(text, share)
 
-    search = Conditions(**item["search"])
+    search, faults = Conditions(**item["search"]), item.get("faults", ())
+    plan = Plan.from_json(item["plan"] | {"document": item["document"]})
     return run_plan(
         task,
-        Plan.from_json(item["plan"] | {"document": item["document"]}),
+        plan,
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
         deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
+        fault=draw_fault(faults, seed, failing_of(task, plan), BEGINS) if faults else None,
         progress=lambda action, of: tell(f"action {action} of {of}", action / of),
         control=Control(item["law"], replanner(search, RunEvents(note=tell), seed)),
     )
@@ -94,6 +96,7 @@ def judged(seed: int, run: SpatialRun) -> SpatialTrial:
         breaks=len(run.broken),
         replans=len(report.replans),
         wall_seconds=run.wall_seconds,
+        fault=told_fault(run.fault, run.done, report),
     )
 
 
@@ -118,6 +121,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     search: Conditions = field(default_factory=Conditions)
     """How plans are searched for on the way."""
     faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
 
     @property
     def work(self) -> SpatialTask:
@@ -154,13 +158,14 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
             "plan_seconds": self.search.plan_seconds,
             "replan": self.search.replan,
         }
-        return {
+        told = {
             "document": self.task.document,
             "plant": list(self.plant),
             "noise": self.noise.to_json(),
             "law": self.law,
             "search": search,
         }
+        return told | ({"faults": list(self.faults)} if self.faults else {})
 
     def begun(self, asked: int) -> "SpatialTrials":
         """No runs yet."""
@@ -168,7 +173,9 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
 
     def trial(self, result: Json, store: Path | None = None) -> SpatialTrial:
         """The trial of a result."""
-        return read_result(SpatialTrial, result, store)
+        trial = read_result(SpatialTrial, result, store)
+        check_told(trial.fault, store)
+        return trial
 
     def failed(self, seed: int, error: str) -> SpatialTrial:
         """A run that raised."""
@@ -209,7 +216,7 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     ]
     asked: Count
     """How many there are to be."""
-    ended: Annotated[list[SpatialTrial], Key("trials", after="causes")]
+    ended: Annotated[list[SpatialTrial], Key("trials", after="faults")]
     wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the runs that ended."""
 
@@ -217,6 +224,11 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     def causes(self) -> tuple[Cause, ...]:
         """Why runs ended early, the commonest first."""
         return causes_of(self.ended, attrgetter("reason"), attrgetter("actions"))
+
+    @in_json(after="causes")
+    def faults(self) -> tuple[FaultRow, ...]:
+        """By kind; none in trials without."""
+        return fault_rows(self.ended) if self.setup.faults else ()
 
     def of(self, name: str) -> Floats:
         """A number of all runs that have it."""
