@@ -119,7 +119,6 @@ def run_plan(
     *,
     flaws: SpatialFlaws | None = None,
     deviations: Deviations | None = None,
-    fault: Fault | None = None,
     progress: Callable[[int, int], None] | None = None,
     log: Path | WantedLog | None = None,
     control: Control = Control(),
@@ -131,8 +130,7 @@ def run_plan(
         task: Robot and world.
         plan: Of that task.
         flaws: Of the plant; None: it is ideal.
-        deviations: How robot and world truly are; None: as believed.
-        fault: That the robot has; None: none.
+        deviations: How robot and world truly are, and what fails; None: as believed.
         progress: Told before each motion: the action that it begins with, and how many there are.
         log: An .mcap file that grows as the robot moves (`execution.log_stream`).
         control: Law, and who plans again.
@@ -143,6 +141,7 @@ def run_plan(
     """
     began = time.perf_counter()
     course = Course.of(task, plan, label)
+    fault = None if deviations is None else deviations.fault
     plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
     moved = plant if fault is None else failing_plant(task, plant, fault, course.start.joints)
     body = body_of(task, moved, plant.flaws, control.law)

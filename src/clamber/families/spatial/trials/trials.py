@@ -1,7 +1,7 @@
 """Many runs of one plan of a robot in space, each with its own seed: run over workers, stored as they end, and what they say together."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Final
@@ -20,7 +20,7 @@ from ....types import Floats, Json
 from ..control.laws import USUAL
 from ..execution.faulty_spatial import BEGINS, failing_of
 from ..planning.task import SpatialTask
-from ..sim.spatial_flaws import read_spatial_flaws
+from ..sim.spatial_flaws import Deviations, read_spatial_flaws
 from .noise import SpatialNoise
 from .planning import replanner
 from .run_plan import Control, SpatialRun, run_plan
@@ -66,17 +66,26 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
         if step is not None:
             step(text, share)
 
-    search, faults = Conditions(**item["search"]), item.get("faults", ())
+    search = Conditions(**item["search"])
     plan = Plan.from_json(item["plan"] | {"document": item["document"]})
     return run_plan(
         task,
         plan,
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
-        deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
-        fault=draw_fault(faults, seed, failing_of(task, plan), BEGINS) if faults else None,
+        deviations=_deviations(noise, item, task, plan),
         progress=lambda action, of: tell(f"action {action} of {of}", action / of),
         control=Control(item["law"], replanner(search, RunEvents(note=tell), seed)),
     )
+
+
+def _deviations(noise: SpatialNoise, item: Json, task: SpatialTask, plan: Plan) -> Deviations | None:
+    """How robot and world truly are, with the fault that the seed draws; None: as believed."""
+    seed, kinds = item["seed"], item.get("faults", ())
+    drawn = noise.deviations(task.robot, task.world, seed) if noise.any else None
+    if not kinds:
+        return drawn
+    fault = draw_fault(kinds, seed, failing_of(task, plan), BEGINS)
+    return replace(drawn or Deviations.none(task.robot, task.world), fault=fault)
 
 
 def judged(seed: int, run: SpatialRun) -> SpatialTrial:
