@@ -261,9 +261,10 @@ class LimbedBody:
         self._guard = self.watch.guard(self.sensed)
 
     def _hold_posture(self, guard: Guard) -> None:
-        """What is left of a tick of a robot that has stopped."""
-        guard.hold(self.sensed, self.law.torques)
-        self.plant.actuate(self.law.torques)
+        """What is left of a tick of a robot that has stopped; one that its link does not reach holds its posture by itself."""
+        if self.watch.monitor.linked:
+            guard.hold(self.sensed, self.law.torques)
+            self.plant.actuate(self.law.torques)
         self.plant.step()
         self.ticks += 1
 
