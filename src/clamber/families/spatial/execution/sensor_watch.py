@@ -1,8 +1,9 @@
 """What a robot in space notices of faults in itself, tick by tick: what is bridged, and what ends a run."""
 
 import math
+from collections.abc import Sequence
 from itertools import combinations
-from typing import Final, NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -36,19 +37,26 @@ FOR: Final = 0.1
 WEAK: Final = 0.35
 """Part of a motor's largest torque that neither weights of links nor the tip's wrench explain, beyond which the motor gives less than it is
 told [-]: accelerations and gears make half of it in runs without a fault."""
-UNBALANCED: Final = 0.6
-"""Forces of all tips less what the base's acceleration takes, over the weight, beyond which a sensor is off [-]."""
+UNBALANCED: Final = 0.4
+"""Forces of all tips less what the base's acceleration takes, over the weight, beyond which a sensor is off [-]: half of
+it without a fault."""
 REPEATS: Final = 0.1
 """For so long an axis says the same to the last bit, while both others of its unit change, before it is stuck [s]."""
-WANDERED: Final = 0.08
+WANDERED: Final = 0.05
 """Two tips on their holds that have moved by this part of the longest limb against each other since they came there are there no more, or
-a sensor is off [-]: play of gears makes less than half of it."""
-WANDERING: Final = 0.3
+a sensor is off [-]: play of gears makes 0.6 of it."""
+WANDERING: Final = 0.2
 """For so long that has to last [s]: what slides off is told as a slip before."""
 RIGID: Final = 0.3
 """Part of it that the tips have come nearer or farther, below which it is the body that is believed to have turned [-]."""
+DISBELIEVED: Final = 0.5
+"""Part of what the accelerometer says to accelerate the robot that the tips' forces do not bear out, above which it is not believed [-]."""
 STILL: Final = 0.3
 """An encoder that has not changed by a count for so long is the one at fault where it can be [s]."""
+
+
+Wandered: TypeAlias = tuple[tuple[int, int], Floats, Floats]
+"""Two limbs, how their tips lay to each other, and how they lie now, as believed [m]."""
 
 
 class Room(NamedTuple):
@@ -218,7 +226,7 @@ class SensorWatch:
     def _look_at_tips(self, holds: Ints) -> None:
         """Whether tips have moved against each other that are on their holds."""
         aims, tips = self._law.aims, self._law.dynamics.tip
-        wandered = []
+        wandered: list[Wandered] = []
         for pair in combinations(np.flatnonzero((aims.does == HOLDS) & (holds >= 0)).tolist(), 2):
             i, k = pair
             between, on = tips[i] - tips[k], (int(holds[i]), int(holds[k]))
@@ -231,16 +239,14 @@ class SensorWatch:
         if self._wandered > self._wandering:
             self._tell_wandered(wandered)
 
-    def _tell_wandered(self, wandered: list[tuple[tuple[int, int], Floats, Floats]]) -> None:
+    def _tell_wandered(self, wandered: Sequence[Wandered]) -> None:
         """Which sensor explains best that tips have moved: the gyro if they have kept their distances, or an encoder."""
         law, n = self._law, self._n
         far = [float(np.linalg.norm(now - then)) for _, then, now in wandered]
         nearer = [abs(float(np.linalg.norm(now) - np.linalg.norm(then))) for _, then, now in wandered]
         told = f"tips have moved by up to {1e3 * max(far):.0f} mm against each other on their holds"
         if len(wandered) > 1 and max(nearer) < RIGID * max(far):
-            turned = sum((np.cross(then, now) for _, then, now in wandered), np.zeros(3))
-            axis = int(np.abs(turned @ law.state.rotation).argmax())
-            self._fail("drift", 2 * n + axis, f"gyro off: {told}, all alike")
+            self._fail("drift", self._turned_sensor(wandered), f"gyro or accelerometer off: {told}, all alike")
         limbs = np.bincount([limb for pair, _, _ in wandered for limb in pair], minlength=law.tree.limbs)
         _, then, now = max(
             wandered, key=lambda one: (limbs[list(one[0])].sum(), float(np.linalg.norm(one[2] - one[1])))
@@ -253,6 +259,18 @@ class SensorWatch:
         if still.any():
             self._fail("no answer", c, f"encoder stuck: {told}")
         self._fail("drift", c, f"encoder drifts, or a hold slides: {told}")
+
+    def _turned_sensor(self, wandered: Sequence[Wandered]) -> int:
+        """The axis of the IMU by which the body is believed to have turned: the accelerometer's if the tips' forces contradict it."""
+        rests, law = self._rests, self._law
+        if np.linalg.norm(rests.tips - rests.push) > DISBELIEVED * np.linalg.norm(rests.push):
+            return self._off_sensor()
+        moments, spread = np.zeros(3), np.zeros((3, 3))
+        for _, then, now in wandered:
+            moments += np.cross(then, now)
+            spread += float(then @ then) * np.eye(3) - np.outer(then, then)
+        turn = np.linalg.lstsq(spread, moments)[0] @ law.state.rotation
+        return 2 * self._n + int(np.abs(turn).argmax())
 
     def _fail(self, kind: str, channel: int, why: str) -> None:
         """End the run.
