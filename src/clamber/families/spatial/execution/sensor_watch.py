@@ -37,8 +37,8 @@ FOR: Final = 0.1
 WEAK: Final = 0.35
 """Part of a motor's largest torque that neither weights of links nor the tip's wrench explain, beyond which the motor gives less than it is
 told [-]: accelerations and gears make half of it in runs without a fault."""
-UNBALANCED: Final = 0.4
-"""Forces of all tips less what the base's acceleration takes, over the weight, beyond which a sensor is off [-]: half of
+UNBALANCED: Final = 0.3
+"""Forces of all tips less what the base's acceleration takes, over the weight, beyond which a sensor is off [-]: two thirds of
 it without a fault."""
 REPEATS: Final = 0.1
 """For so long an axis says the same to the last bit, while both others of its unit change, before it is stuck [s]."""
@@ -241,7 +241,7 @@ class SensorWatch:
 
     def _tell_wandered(self, wandered: Sequence[Wandered]) -> None:
         """Which sensor explains best that tips have moved: the gyro if they have kept their distances, or an encoder."""
-        law, n = self._law, self._n
+        law = self._law
         far = [float(np.linalg.norm(now - then)) for _, then, now in wandered]
         nearer = [abs(float(np.linalg.norm(now) - np.linalg.norm(then))) for _, then, now in wandered]
         told = f"tips have moved by up to {1e3 * max(far):.0f} mm against each other on their holds"
