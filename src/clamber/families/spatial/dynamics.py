@@ -3,21 +3,43 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Final,
+)
 
 from ...errors import SpecError
 from ...execution.fault import check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from ...trials.dynamics import (
+    Conditions,
+    Dynamics,
+    RunEvents,
+    RunRequest,
+    TrialsRequest,
+)
 from .control.laws import USUAL, body_law
 from .execution.faulty_spatial import fault_kinds
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
-from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
+from .trials.noise import (
+    SpatialNoise,
+    named_spatial_noise,
+    read_spatial_noise,
+)
 from .trials.planning import found_plan, replanner
-from .trials.run_plan import Control, SpatialRun, run_plan
-from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
+from .trials.run_plan import (
+    Control,
+    SpatialRun,
+    run_plan,
+)
+from .trials.trials import (
+    SpatialSetup,
+    SpatialTrial,
+    SpatialTrials,
+)
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -6,17 +6,44 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from ....execution.run_report import BRACED, SETTLED, Ending, FallenError, Outcome, ending_of
+from ....execution.run_report import (
+    BRACED,
+    SETTLED,
+    Ending,
+    FallenError,
+    Outcome,
+    ending_of,
+)
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
 from ....types import Floats
 from ..planning.task import SpatialTask
-from .carrying_report import CarryingReport, MotionReport, NewPlan
-from .course import BodyMotion, Course, Motion, Regrab
+from .carrying_report import (
+    CarryingReport,
+    MotionReport,
+    NewPlan,
+)
+from .course import (
+    BodyMotion,
+    Course,
+    Motion,
+    Regrab,
+)
 from .limbed_body import LostHoldError
-from .motions import Landing, move_body, regrab, rest, retake, take
+from .motions import (
+    Landing,
+    move_body,
+    regrab,
+    rest,
+    retake,
+    take,
+)
 from .references import quaternion_of
-from .replanning import neighbours, task_from_here, without
+from .replanning import (
+    neighbours,
+    task_from_here,
+    without,
+)
 from .run_trace import TracedBody
 
 Replan: TypeAlias = Callable[[SpatialTask], Plan | None]

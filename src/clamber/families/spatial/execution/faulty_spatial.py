@@ -5,8 +5,17 @@ from typing import Final
 
 import numpy as np
 
-from ....execution.fault import FAULTS, Failing, Fault, Injector
-from ....execution.faulty_plants import OwnHold, Weakened, step_on
+from ....execution.fault import (
+    FAULTS,
+    Failing,
+    Fault,
+    Injector,
+)
+from ....execution.faulty_plants import (
+    OwnHold,
+    Weakened,
+    step_on,
+)
 from ....planning.problem.plan import Plan
 from ....types import Floats, Ints
 from ....units import GRAVITY
@@ -14,7 +23,12 @@ from ..planning.task import SpatialTask
 from ..robot.chains import Chains
 from ..robot.robot import SpatialRobot
 from .course import Course, Regrab
-from .plant import Pose, SpatialPlant, SpatialSensed, SpatialTruth
+from .plant import (
+    Pose,
+    SpatialPlant,
+    SpatialSensed,
+    SpatialTruth,
+)
 from .sensors import sensor_names, sensor_ranges
 
 BEGINS: Final = (1.0, 20.0)
@@ -76,16 +90,31 @@ class FaultySpatial:
         real, told, injector = self.plant.sense(), self.sensed, self._injector
         fault, n, at = injector.fault, self._n, injector.fault.channel
         self._real = real
-        parts = real.joints[0], real.torques, real.gyro, real.accelerometer, real.wrenches.ravel()
-        values, number = injector.read(
-            np.concatenate((*parts, real.joints[1], real.closed, real.shutting)), int(real.number[0])
+        parts = (
+            real.joints[0],
+            real.torques,
+            real.gyro,
+            real.accelerometer,
+            real.wrenches.ravel(),
+            real.joints[1],
+            real.closed,
+            real.shutting,
         )
-        ends = np.cumsum((n, n, 3, 3, 6 * self._limbs, n, self._limbs))
-        told.joints[0], told.torques[:], told.gyro[:], told.accelerometer[:], wrenches, told.joints[1], closed, shutting = (
-            np.split(values, ends)
-        )  # fmt: skip
+        number = int(real.number[0])
+        values, number = injector.read(np.concatenate(parts), number)
+        ends = np.cumsum([part.size for part in parts])
+        (
+            told.joints[0],
+            told.torques[:],
+            told.gyro[:],
+            told.accelerometer[:],
+            wrenches,
+            told.joints[1],
+            told.closed[:],
+            told.shutting[:],
+        ) = np.split(values, ends[:-1])
         told.wrenches[:] = wrenches.reshape(-1, 6)
-        told.closed[:], told.shutting[:], told.number[0] = closed, shutting, number
+        told.number[0] = number
         if fault.target == "sensor" and at < n:
             told.joints[1, at] = injector.speed(float(told.joints[0, at]), float(real.joints[1, at]))
         elif fault.target == "motor" and injector.on:

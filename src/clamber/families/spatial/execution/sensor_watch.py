@@ -3,7 +3,11 @@
 import math
 from collections.abc import Sequence
 from itertools import combinations
-from typing import Final, NamedTuple, TypeAlias
+from typing import (
+    Final,
+    NamedTuple,
+    TypeAlias,
+)
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +19,12 @@ from ....execution.posture_guard import JointHold
 from ....execution.reading_monitor import Channel, ReadingMonitor
 from ....execution.run_report import FaultError
 from ....types import Floats, Ints
-from ..control.watch_kernels import count_repeats, gather, give_back, unexplained
+from ..control.watch_kernels import (
+    count_repeats,
+    gather,
+    give_back,
+    unexplained,
+)
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from .plant import SpatialSensed
@@ -126,7 +135,6 @@ class SensorWatch:
             np.zeros(limbs, np.int32),
             np.zeros(limbs, np.int32),
         )
-        self._limb_names = robot.limb_names
         self._owner = np.repeat(np.arange(limbs), robot.chains.n_joints)
         """Limb of each joint, shape (n,)."""
         self._units = 2 * self._n + 3 * np.arange(2 + 2 * limbs)
@@ -154,7 +162,15 @@ class SensorWatch:
         """
         monitor, law, number = self.monitor, self._law, int(sensed.number[0])
         fresh = number < 0 or number > self._newest
-        gather(sensed, law.torques, self._pace.touch, law.aims.does, self._owner, fresh, self._room)
+        gather(
+            sensed,
+            law.torques,
+            self._pace.touch,
+            law.aims.does,
+            self._owner,
+            fresh,
+            self._room,
+        )
         try:
             monitor.see(number)
             self._ticks += 1
@@ -189,9 +205,17 @@ class SensorWatch:
         count_repeats(room, self._units)
         if room.repeats.max() >= self._repeats:
             c = int(room.repeats.argmax())
-            monitor.bad.add(c)
             self._fail("no answer", c, "sensor stuck: it says the same while the others of its unit change")
-        unexplained(sensed, law.torques, law.tree, self._mass, self._share, law.state, law.dynamics, self._rests)
+        unexplained(
+            sensed,
+            law.torques,
+            law.tree,
+            self._mass,
+            self._share,
+            law.state,
+            law.dynamics,
+            self._rests,
+        )
         if monitor.clear > self._patience * self._every:
             self._look_at_torques()
         if self._ticks % (TIPS_EVERY * self._every) == 0:

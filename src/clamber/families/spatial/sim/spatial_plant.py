@@ -7,13 +7,21 @@ from typing import Any, Final
 import numpy as np
 
 from ....execution.plant import PlantStoppedError
-from ....sim.electronics import limit_torques, read_encoders, take_torques
+from ....sim.electronics import (
+    limit_torques,
+    read_encoders,
+    take_torques,
+)
 from ....sim.force_sensing import WrenchReader
 from ....sim.limb_flaws import ForceSensor
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
 from ....units import GRAVITY
-from ..execution.plant import Pose, SpatialSensed, SpatialTruth
+from ..execution.plant import (
+    Pose,
+    SpatialSensed,
+    SpatialTruth,
+)
 from ..robot.bodies import rotation
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
@@ -21,7 +29,13 @@ from ..world.world import World
 from .ends import Ends
 from .imu import Imu
 from .spatial_flaws import Deviations, SpatialFlaws
-from .spatial_model import TrueWorld, play_name, quaternion, spatial_spec, tip_name
+from .spatial_model import (
+    TrueWorld,
+    play_name,
+    quaternion,
+    spatial_spec,
+    tip_name,
+)
 
 SEATING: Final = 30
 """Steps of the search that puts tips on the true holds."""

@@ -8,10 +8,19 @@ from typing import Annotated
 
 from ....execution.fault import Fault
 from ....execution.log_scene import LoggedScene
-from ....execution.log_stream import LogGap, WantedLog, growing_log
+from ....execution.log_stream import (
+    LogGap,
+    WantedLog,
+    growing_log,
+)
 from ....execution.plant import HoldBreak
 from ....execution.sequencer import Sequencer
-from ....json_form import HIDDEN, INLINE, Jsonable, Key
+from ....json_form import (
+    HIDDEN,
+    INLINE,
+    Jsonable,
+    Key,
+)
 from ....notebook import Pictured
 from ....planning.problem.plan import Plan
 from ....types import Floats
@@ -23,7 +32,11 @@ from ..execution.course import Course
 from ..execution.estimated_base import EstimatedBase
 from ..execution.faulty_spatial import FaultySpatial
 from ..execution.plant import SpatialPlant
-from ..execution.run_trace import TOPIC, RunTrace, TracedBody
+from ..execution.run_trace import (
+    TOPIC,
+    RunTrace,
+    TracedBody,
+)
 from ..execution.settings import Pace
 from ..execution.space_scene import space_scene
 from ..planning.task import SpatialTask

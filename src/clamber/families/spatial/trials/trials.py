@@ -1,7 +1,11 @@
 """Many runs of one plan of a robot in space, each with its own seed: run over workers, stored as they end, and what they say together."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import (
+    dataclass,
+    field,
+    replace,
+)
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Final
@@ -10,12 +14,29 @@ import numpy as np
 
 from ....execution.fault import draw_fault
 from ....jobs import read_result
-from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....json_form import (
+    HIDDEN,
+    Count,
+    Jsonable,
+    Key,
+    in_json,
+)
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
-from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
-from ....trials.trial_runs import Cause, Setup, Trials, causes_of
+from ....trials.fault_trials import (
+    FaultRow,
+    TriedFault,
+    check_told,
+    fault_rows,
+    told_fault,
+)
+from ....trials.trial_runs import (
+    Cause,
+    Setup,
+    Trials,
+    causes_of,
+)
 from ....types import Floats, Json
 from ..control.laws import USUAL
 from ..execution.faulty_spatial import BEGINS, failing_of
@@ -23,7 +44,11 @@ from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, read_spatial_flaws
 from .noise import SpatialNoise
 from .planning import replanner
-from .run_plan import Control, SpatialRun, run_plan
+from .run_plan import (
+    Control,
+    SpatialRun,
+    run_plan,
+)
 
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
