@@ -31,13 +31,13 @@ from .plant import SpatialSensed
 from .sensors import sensor_names, sensor_ranges
 from .settings import Pace
 
-STEP: Final = 0.5
-"""Part of its range by which a gyro or an accelerometer may change within a tick [-]: knocks of gears make an eighth of it ..."""
+STEP: Final = 1.5
+"""Part of its range by which a gyro or an accelerometer may change within a tick [-]: knocks of gears make half of it ..."""
 KNOCK: Final = 12.0
 """... and the same of a tip's sensor, which feels what lands [-]."""
-LOOKED_AT: Final = 0.01
+LOOKED_AT: Final = 0.02
 """Time between two looks at what sensors and motors say together [s]."""
-TIPS_EVERY: Final = 5
+TIPS_EVERY: Final = 2
 """Looks from one at the tips to the next."""
 SMOOTHED: Final = 0.1
 """Time constant of the torques and forces that are looked at [s] ..."""
@@ -144,7 +144,7 @@ class SensorWatch:
         self._share, self._patience = min(1.0, looked / SMOOTHED), math.ceil(FOR / looked)
         self._repeats, self._wandering = math.ceil(REPEATS / looked), math.ceil(WANDERING / looked / TIPS_EVERY)
         self._rests = Rests(np.zeros(self._n), np.zeros(3), np.zeros(3))
-        self._weak, self._off, self._wandered = np.zeros(self._n, np.int64), 0, 0
+        self._weak = self._off = self._wandered = 0
         self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
         """Pair of limbs -> its holds, and how its tips lay to each other when both had come there, as believed [m]."""
         self._ticks, self._newest, self._debt = 0, -1, 0
@@ -174,7 +174,7 @@ class SensorWatch:
         try:
             monitor.see(number)
             self._ticks += 1
-            if fresh and self._ticks % self._every == 0 and not monitor.closed:
+            if self._ticks % self._every == 0 and fresh and not monitor.closed:
                 self._look(sensed, holds)
         except FaultError:
             if not monitor.closed:
@@ -182,7 +182,9 @@ class SensorWatch:
         finally:
             if monitor.clear < 2:  # something was bridged in this tick or in the one before
                 give_back(sensed, self._room)
-            if number >= 0:
+            if number == self._newest + 1 and self._clock == self._newest:
+                self._newest = self._clock = number
+            elif number >= 0:
                 self._count(number, fresh)
                 sensed.number[0] = self._clock
 
@@ -223,7 +225,7 @@ class SensorWatch:
 
     def _look_at_torques(self) -> None:
         """Whether motors, force sensors and accelerometer agree."""
-        off = float(np.linalg.norm(self._rests.tips - self._rests.push)) / self._pace.weight
+        off = math.dist(self._rests.tips, self._rests.push) / self._pace.weight
         self._off = self._off + 1 if off > UNBALANCED else 0
         if self._off > self._patience:
             self._fail(
@@ -232,9 +234,9 @@ class SensorWatch:
                 f"sensor off: the tips bear {off:.1f} weights more or less than there are",
             )
         parts = np.abs(self._rests.torques) / self._limits
-        self._weak = np.where(parts > WEAK, self._weak + 1, 0)
-        if self._weak.max() > self._patience and not self._off:
-            c = int(np.where(self._weak > self._patience, parts, 0.0).argmax())
+        c = int(parts.argmax())
+        self._weak = self._weak + 1 if parts[c] > WEAK else 0
+        if self._weak > self._patience and not self._off:
             told = f"{100.0 * parts[c]:.0f} % of its largest torque are told it, and nothing bears them"
             self._fail("unbalanced", c, f"motor dead or weak: {told}")
 
