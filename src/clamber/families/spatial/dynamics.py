@@ -3,20 +3,43 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Final
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Final,
+)
 
 from ...errors import SpecError
-from ...family import NotOfFamilyError, family_of
+from ...execution.fault import check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest
+from ...trials.dynamics import (
+    Conditions,
+    Dynamics,
+    RunEvents,
+    RunRequest,
+    TrialsRequest,
+)
 from .control.laws import USUAL, body_law
+from .execution.faulty_spatial import fault_kinds
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
-from .trials.noise import SpatialNoise, named_spatial_noise, read_spatial_noise
+from .trials.noise import (
+    SpatialNoise,
+    named_spatial_noise,
+    read_spatial_noise,
+)
 from .trials.planning import found_plan, replanner
-from .trials.run_plan import Control, SpatialRun, run_plan
-from .trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
+from .trials.run_plan import (
+    Control,
+    SpatialRun,
+    run_plan,
+)
+from .trials.trials import (
+    SpatialSetup,
+    SpatialTrial,
+    SpatialTrials,
+)
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -50,12 +73,12 @@ class SpatialDynamics(Dynamics):
         return frozenset({"plant"})
 
     def check(self, work: SpatialTask, asked: Conditions) -> None:
-        """Plant, noise and law; there are no faults."""
+        """Plant, noise, law and faults."""
         body_law(asked.law or USUAL)
         read_spatial_flaws(asked.plant)
         _noise(asked)
-        if isinstance(asked, TrialsRequest) and asked.faults:
-            raise NotOfFamilyError(family_of(work).title, "faults")
+        if isinstance(asked, TrialsRequest):
+            check_faults(asked.faults, fault_kinds(work.robot))
 
     def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with more in reserve than the checks ask for."""
@@ -123,6 +146,7 @@ class SpatialDynamics(Dynamics):
             plan=plan,
             planned=plan is None,
             search=Conditions(planner=asked.planner, plan_seconds=asked.plan_seconds, replan=asked.replan),
+            faults=asked.faults,
         )
         return replace(setup, plan=self._fit(work, plan or setup.stored_plan(store), asked, events, 0, label))
 

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from ...types import Floats, Ints
     from .environment import SpatialEnv
     from .execution.plant import Pose, SpatialSensed, SpatialTruth
-    from .sim.spatial_flaws import SpatialFlaws
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,11 +52,6 @@ class EnvironmentPlant:
     def __post_init__(self) -> None:
         env = self.env
         self.period, self._action = env.period, np.zeros(len(env.torques) + len(env.task.robot.limb_names), np.float32)
-
-    @property
-    def flaws(self) -> SpatialFlaws:
-        """Of the simulated robot, as its data sheets tell them."""
-        return self.env.plant.flaws
 
     def reset(self, pose: Pose, joints: Floats, held: Sequence[int] | Ints) -> None:
         """See `SpatialPlant`: the episode has begun at the plan's start."""
@@ -107,7 +101,7 @@ def carry_out(env: SpatialEnv, seed: int, law: str = USUAL) -> Episode:
     """
     env.reset(seed=seed)
     plant = EnvironmentPlant(env)
-    body = body_of(env.task, plant, law)
+    body = body_of(env.task, plant, env.plant.flaws, law)
     report = Sequencer(Carrying(body, env.task, Course.of(env.task, env.plan))).run()
     done = env.progress == 1.0
     return Episode(plant.total, env.plant.time, env.progress, done, "" if done else report.reason)

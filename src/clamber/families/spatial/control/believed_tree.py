@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from ....control.whole_body.programme import Limits
-from ....control.whole_body.tree import Tree
+from ....control.whole_body.tree import FREE, Dynamics, State, Tree
+from ....control.whole_body.tree_kernels import work_out
 from ....types import Floats
 from ..robot.parts import Motors, parts_of
 from ..robot.robot import SpatialRobot
@@ -46,6 +47,14 @@ def joint_limits(robot: SpatialRobot) -> Limits:
     return Limits(
         Motors.of(robot).torque, flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed)
     )
+
+
+def joint_inertias(tree: Tree, joints: Floats) -> Floats:
+    """What each joint moves while the base and the other joints rest: rotor and links, shape (n,) [kg m^2] or [kg]."""
+    state, dynamics = State.of(tree), Dynamics.of(tree)
+    state.joints[:] = joints
+    work_out(tree, state, dynamics)
+    return np.diag(dynamics.mass)[FREE:].copy()
 
 
 def flat(robot: SpatialRobot, table: Floats) -> Floats:

@@ -6,17 +6,44 @@ from typing import Final, TypeAlias
 
 import numpy as np
 
-from ....execution.run_report import BRACED, SETTLED, Ending, FallenError, Outcome, ending_of
+from ....execution.run_report import (
+    BRACED,
+    SETTLED,
+    Ending,
+    FallenError,
+    Outcome,
+    ending_of,
+)
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
 from ....types import Floats
 from ..planning.task import SpatialTask
-from .carrying_report import CarryingReport, MotionReport, NewPlan
-from .course import BodyMotion, Course, Motion, Regrab
+from .carrying_report import (
+    CarryingReport,
+    MotionReport,
+    NewPlan,
+)
+from .course import (
+    BodyMotion,
+    Course,
+    Motion,
+    Regrab,
+)
 from .limbed_body import LostHoldError
-from .motions import Landing, move_body, regrab, rest, retake, take
+from .motions import (
+    Landing,
+    move_body,
+    regrab,
+    rest,
+    retake,
+    take,
+)
 from .references import quaternion_of
-from .replanning import neighbours, task_from_here, without
+from .replanning import (
+    neighbours,
+    task_from_here,
+    without,
+)
 from .run_trace import TracedBody
 
 Replan: TypeAlias = Callable[[SpatialTask], Plan | None]
@@ -170,13 +197,14 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         return True
 
     def stop_safely(self) -> Ending:
-        """See `Performer`: the robot stays where it is."""
+        """See `Performer`: the robot holds its posture."""
+        self.body.brace()
         places = [self._place()]
         for seconds in (BRACED - SETTLED, SETTLED):
             rest(self.body, seconds)
             places.append(self._place())
         moved, late = (float(np.linalg.norm(places[k] - places[2])) for k in (0, 1))
-        return ending_of(moved, late, holds=bool((self.body.holds >= 0).any()))
+        return ending_of(moved, late, holds=moved < self.body.pace.lost)
 
     def name(self, action: Motion) -> str:
         """See `Performer`."""
@@ -187,7 +215,7 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def end(self) -> None:
         """See `Performer`."""
         report, state = self.report, self.body.law.state
-        report.failures = self.body.law.failures
+        report.failures, report.findings = self.body.law.failures, list(self.body.watch.monitor.findings)
         report.pose = pose_of(state.position, state.rotation)
         true = self.body.plant.truth()
         if true is not None and np.isfinite(true.pose.position).all():

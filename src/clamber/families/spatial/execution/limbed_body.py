@@ -6,8 +6,17 @@ from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
-from ....control.whole_body.tree import FREE, Dynamics, State
+from ....control.whole_body.programme import (
+    FREE_LIMB,
+    HOLDS,
+    SWINGS,
+    Gains,
+)
+from ....control.whole_body.tree import (
+    FREE,
+    Dynamics,
+    State,
+)
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
@@ -20,6 +29,7 @@ from ..world.world import World
 from .belief import Belief
 from .course import Standing
 from .plant import SpatialPlant, SpatialSensed
+from .sensor_watch import Guard, SensorWatch
 from .settings import Pace
 
 OPEN: Final = 3
@@ -78,6 +88,8 @@ class LimbedBody:
         self.law = body_law(law)(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
+        self.watch: Final = SensorWatch(robot, self.law, plant.period)
+        self._guard: Guard | None = None
         self.holds: Ints = np.full(limbs, -1, np.int32)
         """Index of the hold that each limb holds on to, as believed; -1: none. Shape (limbs,)."""
         self.loads: Floats = np.zeros((limbs, 6))
@@ -230,11 +242,16 @@ class LimbedBody:
         Raises:
             LostHoldError: If an end effector that is attached has come off.
             FallenError: If the body is not where it is to be by far.
+            FaultError: If a sensor, a motor or the link has failed.
             PlantStoppedError: If the plant takes no more commands.
         """
         law, aims = self.law, self.law.aims
         self.sensed = self.plant.sense()
+        self.watch.see(self.sensed, self.holds)
         self._believe()
+        if self._guard is not None:
+            self._hold_posture(self._guard)
+            return
         pace, felt = self.pace, self.sensed.wrenches
         bear_loads(aims, self._felt, felt, pace.touch, self.loads, self._pushing, self.fading, pace.stand)
         self._press(law.tick())
@@ -247,6 +264,18 @@ class LimbedBody:
         if off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
         self._feel_holds()
+
+    def brace(self) -> None:
+        """From now on the robot holds its posture, joint by joint: something of it has failed."""
+        self._guard = self.watch.guard(self.sensed)
+
+    def _hold_posture(self, guard: Guard) -> None:
+        """What is left of a tick of a robot that has stopped; one that its link does not reach holds its posture by itself."""
+        if self.watch.monitor.linked:
+            guard.hold(self.sensed, self.law.torques)
+            self.plant.actuate(self.law.torques)
+        self.plant.step()
+        self.ticks += 1
 
     def _press(self, torques: Floats) -> None:
         """What pressing limbs miss of their aims, as springs would press: their own inertia is too little."""

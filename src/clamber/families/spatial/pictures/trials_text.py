@@ -7,7 +7,7 @@ from rich.console import Console
 
 from ....trials.held_out import seeds_in_words
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import print_causes, print_effects
+from ....viewing.trials_text import print_causes, print_effects, print_faults
 from ..trials.noise import SPATIAL_NOISE
 from ..trials.trials import SpatialTrials
 
@@ -23,7 +23,7 @@ ROWS = (
 
 def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequence[int]) -> None:
     """Print how often runs came to their end, causes, and the spread of what is measured of them."""
-    n = len(trials.ended)
+    n, faults = len(trials.ended), trials.faults()
     low, high = trials.interval
     style = "bold green" if trials.done == n else "bold red"
     console.print(f"{trials.done} of {n} runs of '{trials.setup.name}' came to their end", style=style)
@@ -32,6 +32,8 @@ def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequenc
     causes = trials.causes()
     if causes:
         print_causes(console, causes, "after actions")
+    if faults:
+        print_faults(console, faults)
     table = plain_table("", *SPREAD, right=SPREAD)
     for title, name, unit, digits in ROWS:
         values = trials.of(name) / unit

@@ -62,7 +62,8 @@ class Ends:
         self._radii = self._own_radii.copy()
         inf = math.inf
         self._hold_mu = np.array([inf if hold.friction is None else hold.friction for hold in world.holds])
-        self._hold_pull = np.array([inf if hold.strength is None else hold.strength for hold in world.holds])
+        self._own_pull = np.array([inf if hold.strength is None else hold.strength for hold in world.holds])
+        self._hold_pull = self._own_pull.copy()
         self._grip_factor, self._slip_factor = deviations.strengths, deviations.frictions
         self._numbers = [hold.number for hold in world.holds]
         self._ends = np.zeros(n, END)
@@ -118,7 +119,7 @@ class Ends:
 
     def reset(self, held: Sequence[int] | Ints) -> None:
         """Attach limbs to holds, -1: to none, where their tips are; the others are open."""
-        self._radii[:] = self._own_radii
+        self._radii[:], self._hold_pull[:] = self._own_radii, self._own_pull
         self._wanted[:] = self._spent[:] = False
         self.closed[:] = 0
         self._ends["hold"], self.broken = -1, ()
@@ -146,6 +147,12 @@ class Ends:
             self._spent[limb] = False
             if self._ends["hold"][limb] >= 0:
                 self._let_go(limb)
+
+    def weaken(self, hold: int, strength: float) -> None:
+        """Have a hold, by its index, bear a pull of `strength` [N] at most, until the next reset."""
+        self._hold_pull[hold] = strength / self._grip_factor[hold]
+        attached = self._ends["hold"] == hold
+        self._ends["held"][attached] = np.minimum(self._ends["held"][attached], strength)
 
     def look(self) -> None:
         """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""

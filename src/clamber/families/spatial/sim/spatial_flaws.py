@@ -8,6 +8,7 @@ from typing import Final, Self
 import numpy as np
 
 from ....errors import UnitError, describe_choices
+from ....execution.fault import Fault
 from ....sim.plant_rules import Flaws, PlantError, check_not_negative, check_rates, check_seed
 from ....types import Floats
 from ....units import parse_quantity
@@ -135,6 +136,8 @@ class Deviations:
     """One after another."""
     payload: float = 0.0
     """Mass at the base's centre of mass that the controller does not know of [kg]."""
+    fault: Fault | None = None
+    """What fails in the robot."""
 
     @classmethod
     def none(cls, robot: SpatialRobot, world: World) -> Self:

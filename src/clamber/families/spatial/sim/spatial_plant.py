@@ -7,13 +7,21 @@ from typing import Any, Final
 import numpy as np
 
 from ....execution.plant import PlantStoppedError
-from ....sim.electronics import limit_torques, read_encoders, take_torques
+from ....sim.electronics import (
+    limit_torques,
+    read_encoders,
+    take_torques,
+)
 from ....sim.force_sensing import WrenchReader
 from ....sim.limb_flaws import ForceSensor
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
 from ....units import GRAVITY
-from ..execution.plant import Pose, SpatialSensed, SpatialTruth
+from ..execution.plant import (
+    Pose,
+    SpatialSensed,
+    SpatialTruth,
+)
 from ..robot.bodies import rotation
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
@@ -21,7 +29,13 @@ from ..world.world import World
 from .ends import Ends
 from .imu import Imu
 from .spatial_flaws import Deviations, SpatialFlaws
-from .spatial_model import TrueWorld, play_name, quaternion, spatial_spec, tip_name
+from .spatial_model import (
+    TrueWorld,
+    play_name,
+    quaternion,
+    spatial_spec,
+    tip_name,
+)
 
 SEATING: Final = 30
 """Steps of the search that puts tips on the true holds."""
@@ -60,6 +74,7 @@ class SpatialSim:
         joints = [model.joint(name) for name in names]
         # views of memory that stays where it is: asking for one costs a microsecond
         self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
+        self._seen = mujoco.MjData(model)
         self._at = np.array([joint.qposadr[0] for joint in joints])
         self._speed_at = np.array([joint.dofadr[0] for joint in joints])
         self.motors: Final = Motors.of(robot)
@@ -167,6 +182,10 @@ class SpatialSim:
         """See `SpatialPlant`."""
         self.ends.grip(limb, close)
 
+    def weaken(self, hold: int, strength: float) -> None:
+        """Have a hold, by its number, give way to a pull above `strength` [N], until the next reset."""
+        self.ends.weaken(hold - 1, strength)
+
     def push(self, wrench: Floats) -> None:
         """Push the base until the next call or reset: force on its centre of mass [N], and moment [N m], world frame, shape (6,)."""
         self._pushed[:] = wrench
@@ -213,9 +232,10 @@ class SpatialSim:
         return steady
 
     def truth(self) -> SpatialTruth:
-        """How things really are."""
-        mujoco, data = self._mujoco, self._data
-        mujoco.mj_kinematics(self.model, data)
+        """How things really are; a look leaves the simulation as it is."""
+        seen = self._seen
+        seen.qpos[:] = self._qpos
+        self._mujoco.mj_kinematics(self.model, seen)
         turn = rotation(self._qpos[3:7])
         joints = np.stack((self._qpos[self._at], self._qvel[self._speed_at]))
         joints[0, self._played] += self._qpos[self._play_at]
@@ -224,7 +244,7 @@ class SpatialSim:
             pose=Pose(turn, self._qpos[:3].copy()),
             velocity=np.concatenate((self._qvel[:3], turn @ self._qvel[3:6])),
             joints=joints,
-            tips=data.site_xpos[self._sites].copy(),
+            tips=seen.site_xpos[self._sites].copy(),
             wrenches=self.ends.wrenches.copy(),
             attached=self.ends.attached,
             torques=self._given[0].copy(),

@@ -114,7 +114,7 @@ def first_steps(task: SpatialTask) -> Plan:
 def try_law(task: SpatialTask, plan: Plan, law: str) -> tuple[LawTrial, list[Moment]]:
     """Stand, and carry a plan out by a law; what became of it, and moments of the run."""
     plant = SpatialSim(task.robot, task.world, SpatialFlaws())
-    body = body_of(task, plant, law, WatchedBody)
+    body = body_of(task, plant, plant.flaws, law, WatchedBody)
     assert isinstance(body, WatchedBody)
     report = Sequencer(Carrying(body, task, Course.of(task, plan))).run()
     truth = plant.truth()

@@ -1,28 +1,45 @@
 """Many runs of one plan of a robot in space, each with its own seed: run over workers, stored as they end, and what they say together."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import (
+    dataclass,
+    field,
+    replace,
+)
 from operator import attrgetter
 from pathlib import Path
 from typing import Annotated, Final
 
 import numpy as np
 
+from ....execution.fault import draw_fault
 from ....jobs import read_result
-from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....json_form import (
+    HIDDEN,
+    Count,
+    Jsonable,
+    Key,
+    in_json,
+)
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
+from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
 from ....trials.sensitivity import Effect, find_effects
 from ....trials.trial_runs import Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..control.laws import USUAL
+from ..execution.faulty_spatial import BEGINS, failing_of
 from ..planning.task import SpatialTask
-from ..sim.spatial_flaws import read_spatial_flaws
+from ..sim.spatial_flaws import Deviations, read_spatial_flaws
 from .drawn import drawn
 from .noise import SPATIAL_NOISE, SpatialNoise
 from .planning import replanner
-from .run_plan import Control, SpatialRun, run_plan
+from .run_plan import (
+    Control,
+    SpatialRun,
+    run_plan,
+)
 
 ERROR: Final = "error"
 """Start of the reason of a trial that raised, or whose workers died."""
@@ -53,11 +70,8 @@ class SpatialTrial(Jsonable):
     """That it took."""
     drawn: dict[str, float]
     """Deviation of each key of the noise that is drawn, of holds those that the plan takes; empty where it raised."""
-
-    @property
-    def fault(self) -> None:
-        """There are none."""
-        return None
+    fault: Annotated[Json | None, Key(kind=TriedFault)] = None
+    """The fault that the robot had, when it was noticed, and how that ended; None in trials without."""
 
 
 def run_once(item: Json, step: Callable[[str, float | None], None] | None = None) -> SpatialRun:
@@ -71,14 +85,25 @@ def run_once(item: Json, step: Callable[[str, float | None], None] | None = None
             step(text, share)
 
     search = Conditions(**item["search"])
+    plan = Plan.from_json(item["plan"] | {"document": item["document"]})
     return run_plan(
         task,
-        Plan.from_json(item["plan"] | {"document": item["document"]}),
+        plan,
         flaws=noise.flaws(read_spatial_flaws(item["plant"], seed), seed),
-        deviations=noise.deviations(task.robot, task.world, seed) if noise.any else None,
+        deviations=_deviations(noise, item, task, plan),
         progress=lambda action, of: tell(f"action {action} of {of}", action / of),
         control=Control(item["law"], replanner(search, RunEvents(note=tell), seed)),
     )
+
+
+def _deviations(noise: SpatialNoise, item: Json, task: SpatialTask, plan: Plan) -> Deviations | None:
+    """How robot and world truly are, with the fault that the seed draws; None: as believed."""
+    seed, kinds = item["seed"], item.get("faults", ())
+    true = noise.deviations(task.robot, task.world, seed) if noise.any else None
+    if not kinds:
+        return true
+    fault = draw_fault(kinds, seed, failing_of(task, plan), BEGINS)
+    return replace(true or Deviations.none(task.robot, task.world), fault=fault)
 
 
 def judged(seed: int, run: SpatialRun, noise: SpatialNoise) -> SpatialTrial:
@@ -99,6 +124,7 @@ def judged(seed: int, run: SpatialRun, noise: SpatialNoise) -> SpatialTrial:
         replans=len(report.replans),
         wall_seconds=run.wall_seconds,
         drawn=drawn(noise, run.task, run.plan, seed),
+        fault=told_fault(run.fault, run.done, report),
     )
 
 
@@ -123,6 +149,7 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     search: Conditions = field(default_factory=Conditions)
     """How plans are searched for on the way."""
     faults: tuple[str, ...] = ()
+    """Kinds of faults, one of which each trial has; none without."""
 
     @property
     def work(self) -> SpatialTask:
@@ -159,13 +186,14 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
             "plan_seconds": self.search.plan_seconds,
             "replan": self.search.replan,
         }
-        return {
+        told = {
             "document": self.task.document,
             "plant": list(self.plant),
             "noise": self.noise.to_json(),
             "law": self.law,
             "search": search,
         }
+        return told | ({"faults": list(self.faults)} if self.faults else {})
 
     def begun(self, asked: int) -> "SpatialTrials":
         """No runs yet."""
@@ -173,7 +201,9 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
 
     def trial(self, result: Json, store: Path | None = None) -> SpatialTrial:
         """The trial of a result."""
-        return read_result(SpatialTrial, result, store)
+        trial = read_result(SpatialTrial, result, store)
+        check_told(trial.fault, store)
+        return trial
 
     def failed(self, seed: int, error: str) -> SpatialTrial:
         """A run that raised."""
@@ -225,6 +255,11 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
         return causes_of(self.ended, attrgetter("reason"), attrgetter("actions"))
 
     @in_json(after="causes")
+    def faults(self) -> tuple[FaultRow, ...]:
+        """By kind; none in trials without."""
+        return fault_rows(self.ended) if self.setup.faults else ()
+
+    @in_json(after="faults")
     def effects(self) -> tuple[Effect, ...]:
         """What each key of the noise did to success; of keys that are the same in each run nothing."""
         return tuple(find_effects(SPATIAL_NOISE, self.ended))

@@ -1,0 +1,117 @@
+"""What a watch of a robot in space works with, as kernels: readings side by side, and torques and forces that nothing explains."""
+
+from ....compiled import kernel
+from ....control.whole_body.programme import HOLDS
+from ....control.whole_body.tree import FREE
+
+
+@kernel
+def gather(sensed, torques, touch, does, owner, fresh, room):
+    """The readings of a tick side by side.
+
+    Args:
+        sensed: What the sensors say; of a reading that is no newer the switches become those before.
+        torques: Commanded since the reading before, shape (n,).
+        touch: A tip that feels less touches nothing [N].
+        does: What each limb does, shape (limbs,).
+        owner: Limb of each joint, shape (n,).
+        fresh: Whether the reading is newer than those before.
+        room: `sensor_watch.Room`; filled.
+    """
+    n = torques.size
+    for k in range(n):
+        room.values[k] = sensed.joints[0, k]
+        room.speeds[k] = sensed.joints[1, k]
+        room.commands[k] = torques[k]
+        room.values[n + k] = sensed.torques[k]
+        limb = owner[k]
+        force = 0.0
+        for a in range(3):
+            force += sensed.wrenches[limb, a] ** 2
+        room.free[k] = does[limb] != HOLDS and force < touch * touch
+    for a in range(3):
+        room.values[2 * n + a] = sensed.gyro[a]
+        room.values[2 * n + 3 + a] = sensed.accelerometer[a]
+    at = 2 * n + 6
+    for limb in range(does.size):
+        for a in range(6):
+            room.values[at + 6 * limb + a] = sensed.wrenches[limb, a]
+        if fresh:
+            room.closed[limb], room.shutting[limb] = sensed.closed[limb], sensed.shutting[limb]
+        else:
+            sensed.closed[limb], sensed.shutting[limb] = room.closed[limb], room.shutting[limb]
+    for k in range(n, room.speeds.size):
+        room.speeds[k] = 0.0
+
+
+@kernel
+def give_back(sensed, room):
+    """What is believed of the readings of a tick, into them."""
+    n = sensed.torques.size
+    for k in range(n):
+        sensed.joints[0, k], sensed.joints[1, k] = room.values[k], room.speeds[k]
+        sensed.torques[k] = room.values[n + k]
+    for a in range(3):
+        sensed.gyro[a] = room.values[2 * n + a]
+        sensed.accelerometer[a] = room.values[2 * n + 3 + a]
+    at = 2 * n + 6
+    for limb in range(sensed.closed.size):
+        for a in range(6):
+            sensed.wrenches[limb, a] = room.values[at + 6 * limb + a]
+
+
+@kernel
+def count_repeats(room, units):
+    """Looks on end at which each reading of a unit of three axes had repeated itself to the last bit while both others changed.
+
+    Args:
+        room: `sensor_watch.Room`; `before` and `repeats` are changed.
+        units: First reading of each unit, shape (units,).
+    """
+    for unit in range(units.size):
+        first = units[unit]
+        for a in range(first, first + 3):
+            alone = room.values[a] == room.before[a] and room.values[a] != 0.0
+            for b in range(first, first + 3):
+                alone = alone and (b == a or room.values[b] != room.before[b])
+            room.repeats[a] = room.repeats[a] + 1 if alone else 0
+    for c in range(room.values.size):
+        room.before[c] = room.values[c]
+
+
+@kernel
+def unexplained(sensed, torques, tree, mass, share, state, dynamics, rests):
+    """What the motors' torques are beyond the weights and the tips' wrenches, and the forces beyond the whole weight, smoothed.
+
+    At rest tau = g - J^T w: a motor that gives less than it is told leaves the rest at its own joint, a wrench that is off leaves some at
+    all joints of its limb.
+
+    Args:
+        sensed: What the sensors say.
+        torques: Commanded, shape (n,).
+        tree: The robot's.
+        mass: Of the robot [kg].
+        share: Of what is new in the smoothed values [-].
+        state, dynamics: As believed.
+        rests: `sensor_watch.Rests`; changed.
+    """
+    n, limbs = torques.size, sensed.closed.size
+    rest, tips, push, gravity = rests.torques, rests.tips, rests.push, tree.gravity
+    for b in range(3):
+        felt = 0.0
+        for a in range(3):
+            felt += state.rotation[b, a] * sensed.accelerometer[a]
+        push[b] += share * (mass * (felt + gravity[b]) - push[b])
+        tips[b] += share * (mass * gravity[b] - tips[b])
+    for k in range(n):
+        rest[k] += share * (torques[k] - dynamics.weight[FREE + k] - rest[k])
+    for limb in range(limbs):
+        for part in range(2):
+            for b in range(3):
+                total = 0.0
+                for a in range(3):
+                    total += dynamics.tip_turn[limb, b, a] * sensed.wrenches[limb, 3 * part + a]
+                if part == 0:
+                    tips[b] += share * total
+                for k in range(n):
+                    rest[k] += share * dynamics.jacobian[limb, 3 * part + b, FREE + k] * total
