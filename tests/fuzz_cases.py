@@ -75,15 +75,16 @@ QUICK: Final = tuple(
     )
 )  # fmt: skip
 """Commands that end at once, to which options are added."""
-COMPILED: Final = tuple(
-    line.split() for line in ("plan patch-walk --planner exact --stances 50 --threads 1 --no-openings --quiet", "reach patch-walk --stances 50 --threads 1",
-                              "plan gap --planner exact --stances 50 --threads 1 --no-openings --quiet", "reach patch-gripper --stances 50 --threads 1")
-)  # fmt: skip
-"""Commands whose kernels cases of spoilt files come to: what compiling them takes is not the cases' own."""
 REFUSED: Final = {
     "bench": "nonsense", "study": "nonsense", "calibrate": "--seeds 0", "view": "no-such-task", "plant serve": "--robot nobody",
 }  # fmt: skip
 """Commands that would serve or compute for long, and what has them refused; others are given a thing that is not there."""
+BRIEF: Final = ("--stances", "50", "--threads", "1")
+COMPILED: Final = (
+    *(("plan", task, "--planner", "exact", *BRIEF, "--no-openings", "--quiet") for task in ("gap", "patch-walk")),
+    *(("reach", task, *BRIEF) for task in ("patch-walk", "patch-gripper")),
+)
+"""Commands whose kernels spoilt files come to: what compiling them takes is not a case's own."""
 
 
 @dataclass(frozen=True, slots=True)
