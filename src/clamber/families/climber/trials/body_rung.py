@@ -144,8 +144,7 @@ def _climb(climber: Climber) -> str:
     start = np.array(START)
     climber.start(start, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     try:
-        climber.wait(0.5)
-        climber.learn_start()
+        climber.learn_start(0.5)
         for limb, number, elbow in GRABS:
             if not grab(climber, names.index(limb), number, elbow=elbow).held:
                 return f"the {limb} limb missed {number}"
