@@ -83,6 +83,7 @@ BRIEF: Final = ("--stances", "50", "--threads", "1")
 COMPILED: Final = (
     *(("plan", task, "--planner", "exact", *BRIEF, "--no-openings", "--quiet") for task in ("gap", "patch-walk")),
     *(("reach", task, *BRIEF) for task in ("patch-walk", "patch-gripper")),
+    ("follow", "tool.csv", "--dof", "4"),
 )
 """Commands whose kernels spoilt files come to: what compiling them takes is not a case's own."""
 

@@ -125,7 +125,7 @@ class SpatialDynamics(Dynamics):
             console.print(run.reason)
         console.print(
             f"{len(run.plan.actions)} actions, {report.seconds:.1f} s in {run.wall_seconds:.1f} s; the body at most "
-            f"{1e3 * report.off:.1f} mm off, torques at most {100 * report.torque:.0f} % of what may be used"
+            f"{1e3 * report.off:.1f} mm off, torques at most {100 * report.torque:.0f} % of the motors'"
         )
 
     def trials(

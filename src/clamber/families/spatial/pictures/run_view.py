@@ -85,8 +85,9 @@ class RunView(View[Moment]):
         return [Part(kind, lambda share, way: self.at(start + share * (end - start)))]
 
     def values(self, at: Moment) -> tuple[Floats, ...]:
-        """See `Film`: torques as shares of their limits, sizes of contact forces [N]."""
-        return used_torques(self.task, at.torques), np.linalg.norm(at.wrenches[:, :3], axis=1)
+        """See `Film`: torques as shares of all that motors have, sizes of contact forces [N]."""
+        scaled = self.task.robot.spec.torque_share * at.torques
+        return used_torques(self.task, scaled), np.linalg.norm(at.wrenches[:, :3], axis=1)
 
     def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """See `View`."""
