@@ -209,7 +209,8 @@ def test_a_rung_is_climbed_and_every_hook_is_seated(seed: int, error: float, fri
     places = load_board("ladder").positions()
     pegs = places + np.random.default_rng(seed).uniform(-error, error, places.shape)
     climber, plant = on_the_ladder(NOMINAL.with_changes(friction=friction), pegs)
-    climber.learn_start(0.5)
+    climber.wait(0.5)
+    climber.learn_start()
     for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
         result = grab(climber, limb, number, elbow=elbow)
         assert result.held, (limb, number, result)
@@ -237,7 +238,8 @@ def test_a_peg_that_is_farther_off_than_the_map_may_be_is_found_all_the_same(asi
 @pytest.mark.parametrize(("offset", "believed"), [(0.4, 1.6), (-0.4, 2.4)])
 def test_a_rung_teaches_what_the_sensors_tell_wrong(offset: float, believed: float) -> None:
     climber, plant = on_the_ladder(map_error=0.001, offset=np.radians(offset), backlash=np.radians(believed))
-    climber.learn_start(0.5)
+    climber.wait(0.5)
+    climber.learn_start()
     for limb, number, elbow in ((RIGHT, 6, -1), (BOTTOM, 1, 1), (LEFT, 5, 1)):
         assert grab(climber, limb, number, elbow=elbow).held
         np.testing.assert_allclose(plant.truth().tips[limb], load_board("ladder").positions()[number - 1], atol=2e-3)

@@ -82,7 +82,7 @@ def test_of_pegs_the_largest_distance_of_those_that_count_is_told() -> None:
     assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[1], far[6], far[8])
 
 
-@pytest.mark.parametrize("seed", [*range(4), 1_000_005_241])
+@pytest.mark.parametrize("seed", range(4))
 def test_a_robot_is_put_on_its_holds_where_they_truly_are_and_stays_on_them(seed: int) -> None:
     drawn = draw(named_noise("usual"), libra(), HOLDS, seed)
     pegs = BOARD.positions() + drawn.pegs
@@ -92,7 +92,8 @@ def test_a_robot_is_put_on_its_holds_where_they_truly_are_and_stays_on_them(seed
     on = np.array([pegs[numbers.index(ON[limb.name])] for limb in libra().limbs])
     np.testing.assert_allclose(climber.plant.truth().tips, on, atol=1e-9)
     before = {number: place.copy() for number, place in climber.holds.items()}
-    climber.learn_start(0.5)
+    climber.wait(0.5)
+    climber.learn_start()
     np.testing.assert_allclose(climber.plant.truth().tips, on, atol=0.002)  # the slot's play
     span, true = climber.holds[4] - climber.holds[3], on[0] - on[1]
     assert np.abs(span - true).max() < max(0.003, 0.6 * np.abs(before[4] - before[3] - true).max())

@@ -313,22 +313,13 @@ class Climber:
         if len(holding) == 2:
             self.learn(self.body.tasks[holding[0]].hold, holding[0], holding[1:])
 
-    def learn_start(self, seconds: float) -> None:
-        """Let the robot come to rest for a time [s], and correct the map by all limbs on holds.
-
-        Until then limbs that only cling pull gently, wherever they are: a hold may be as far off as any, and drawn to where the map has it
-        a hook leaves its slot.
-        """
-        tasks = self.body.tasks
-        on = self.holding()
-        idle = [i for i, task in enumerate(tasks) if task.hold and i not in on]
-        for _ in range(round(seconds / self.plant.period)):
-            for i in idle:
-                tasks[i].place = self.body.tip(i)
-            self.tick()
-        on += idle
+    def learn_start(self) -> None:
+        """Correct the map by all limbs that are on holds: at the start they are at rest, on holds that may be as far off as any."""
+        on = sorted(
+            (i for i, task in enumerate(self.body.tasks) if task.hold), key=lambda i: not self.body.tasks[i].holds
+        )
         for k, i in enumerate(on[1:], 1):
-            self.learn(tasks[i].hold, i, on[:k])
+            self.learn(self.body.tasks[i].hold, i, on[:k])
 
     def seen(self, i: int, j: int) -> TipDifference:
         """Where the tip of limb `i` is from that of limb `j`."""

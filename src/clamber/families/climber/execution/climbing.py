@@ -9,6 +9,7 @@ import numpy as np
 from ....execution.run_report import BRACED, SETTLED, Ending, Outcome, ending_of
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
+from ....types import Floats
 from ..planning.task import LimbedTask
 from .actor import ARRIVED, Actor
 from .climb_report import ActionReport, ClimbReport, NewPlan, beyond
@@ -84,7 +85,8 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
             PlanRefusedError: As `start`.
         """
         self.start()
-        self.climber.learn_start(0.5)
+        self.climber.wait(0.5)
+        self.climber.learn_start()
 
     def next(self) -> Group | None:
         """See `Performer`."""
@@ -181,13 +183,13 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
     def end(self) -> None:
         """See `Performer`: a climb is done only where the body came to the goal."""
         report, climber = self.report, self.climber
-        report.pose = tuple(climber.body.settled.tolist())
+        report.pose = _tuple(climber.body.settled)
         report.findings = list(climber.monitor.findings)
         pose = climber.body.settled
         if climber.truth is not None:
             truth = climber.truth()
             pose = truth.pose
-            report.true_pose = tuple(pose.tolist())
+            report.true_pose = _tuple(pose)
             report.broken = list(truth.broken)
         # on uneven terrain the goal is where the holds of the plan's end are
         shift = np.array((*self._actor.shift(len(self.course.actions)), 0.0))
@@ -200,3 +202,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
             report.reason = f"short: {done} the body ends {1e3 * report.short:.0f} mm short of the goal"
         if report.broken and not report.done:
             report.reason += f" ({report.broken[-1]})"
+
+
+def _tuple(pose: Floats) -> tuple[float, float, float]:
+    return float(pose[0]), float(pose[1]), float(pose[2])

@@ -144,7 +144,8 @@ def _climb(climber: Climber) -> str:
     start = np.array(START)
     climber.start(start, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     try:
-        climber.learn_start(0.5)
+        climber.wait(0.5)
+        climber.learn_start()
         for limb, number, elbow in GRABS:
             if not grab(climber, names.index(limb), number, elbow=elbow).held:
                 return f"the {limb} limb missed {number}"
