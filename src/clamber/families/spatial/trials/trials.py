@@ -261,8 +261,8 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
 
     @in_json(after="faults")
     def effects(self) -> tuple[Effect, ...]:
-        """What each key of the noise did to success; of keys that are the same in each run nothing."""
-        return tuple(find_effects(SPATIAL_NOISE, self.ended))
+        """What each key of the noise did to success; of keys that are the same in each run, and beside faults, nothing."""
+        return () if self.setup.faults else tuple(find_effects(SPATIAL_NOISE, self.ended))
 
     def of(self, name: str) -> Floats:
         """A number of all runs that have it."""
