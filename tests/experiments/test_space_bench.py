@@ -32,7 +32,7 @@ def test_rivals_that_are_not_installed_are_named(monkeypatch: pytest.MonkeyPatch
     rows = [*space_speed.peer_rows(stances=4, rounds=1), *space_speed.step_rows(steps=1)]
     for rival in RIVALS:
         told = next(row for row in rows if row.name.startswith(rival))
-        assert "pip install 'clamber[rivals]'" in told.name and np.isnan(told.value)
+        assert 'pip install ".[rivals]"' in told.name and np.isnan(told.value)
 
 
 @pytest.mark.skipif(importlib.util.find_spec("jet_leg") is None, reason="jet-leg is not installed")

@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..control.whole_body.law import BodyLaw, WholeBody
+from ..errors import how_to_install
 from ..families.spatial.control.laws import BODY_LAWS, USUAL
 from ..families.spatial.statics.checks import STANCE_CHECK
 from ..families.spatial.statics.judging import rules_record
@@ -36,7 +37,7 @@ STEPS: Final = 20
 GOAL: Final = np.array((0.03, 0.0, 0.01, 0.05))
 """By how much: forward, aside, up [m], turn [rad]."""
 SECONDS: Final = 5.0
-EXTRA: Final = "not installed: pip install 'clamber[rivals]'"
+EXTRA: Final = f"not installed: {how_to_install('rivals')}"
 LAW_TASKS: Final = ("wall-gripper", "stones-quadruped", "corners-magnet")
 """Whose first steps every law of a whole body is tried on."""
 
@@ -202,7 +203,7 @@ def law_rows(*, tasks: Sequence[str] = LAW_TASKS, rounds: int = 15, say: Say = k
             if installed(rival):
                 works[rival] = partial(_tick_rivals, [make(law) for law in kinds[USUAL]])
             else:
-                missing.append(f"{rival} (not installed: pip install 'clamber[{rival}]')")
+                missing.append(f"{rival} (not installed: {how_to_install(rival)})")
         times = np.median(round_times(tuple(works.values()), rounds), axis=0) / len(moments)
         rows += [Row(f"{name}, {law}: tick", 1e6 * seconds, "us") for law, seconds in zip(works, times, strict=True)]
         told = [law.told for law in kinds[USUAL] if isinstance(law, WholeBody)]

@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from ....errors import FileError
+from ....errors import FileError, how_to_install
 from ....files import csv_rows
 from ....regular_files import read_bytes
 from ....types import Floats
@@ -216,7 +216,7 @@ def _trimesh(path: Path) -> Any:
     try:
         import trimesh
     except ImportError:
-        told = "install trimesh: pip install 'clamber[terrain]'"
+        told = f"install trimesh: {how_to_install('terrain')}"
         raise FileError(str(path), "cannot be read without trimesh", told) from None
     try:
         loaded: Any = trimesh.load(io.BytesIO(content), file_type=path.suffix.lower()[1:], skip_materials=True)
