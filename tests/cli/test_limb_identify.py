@@ -87,6 +87,17 @@ def test_a_log_that_tells_nothing_says_what_it_would_need_and_leaves_with_one(cl
     assert "backlash: not in this log: needs an angle measured behind the gear" in text
 
 
+def test_what_no_joint_can_have_is_warned_of(clamber: Any, log: Path, tmp_path: Path) -> None:
+    kept = read_log(log)
+    driven = ("current", "command", "torque")
+    assert any(word in name for name in kept.columns for word in driven)
+    turned = {name: -rows if any(word in name for word in driven) else rows for name, rows in kept.columns.items()}
+    write_log(replace(kept, columns=turned), tmp_path / "turned.csv")
+    _, out, err = clamber("limb", "identify", str(tmp_path / "turned.csv"))
+    assert "its inertia came out below 0, which cannot be" in " ".join((out + err).split())
+    assert "below 0" not in "".join(clamber("limb", "identify", str(log))[1:])
+
+
 @pytest.mark.parametrize("constant", [0.0, 0.3])  # currents and commands are what torques come from
 @pytest.mark.parametrize("word", ["current", "command", "angle"])
 def test_columns_that_never_change_end_in_an_error_or_an_answer(

@@ -37,9 +37,10 @@ def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_
     return call
 
 
-def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path) -> None:
+@pytest.mark.parametrize("limbs", first_fast(["4", "3", "6"]))
+def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path, limbs: str) -> None:
     for words in (
-        ("new", "robot", "-o", "mine.toml"),
+        ("new", "robot", "--limbs", limbs, "-o", "mine.toml"),
         ("new", "board", "-o", "wall.toml"),
         ("new", "task", "--robot", "mine.toml", "--board", "wall.toml", "-o", "climb.toml"),
         ("check", "climb.toml"),
