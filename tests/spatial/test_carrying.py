@@ -11,6 +11,7 @@ from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.families.spatial.control.believed_tree import believed_tree
 from clamber.families.spatial.control.laws import BODY_LAWS
+from clamber.families.spatial.control.turn_kernels import write_axes
 from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
@@ -82,7 +83,12 @@ def test_velocities_and_accelerations_of_paths_are_those_of_their_places() -> No
 def test_rotations_and_their_vectors_and_quaternions_agree(angle: float) -> None:
     turned = rotation_of(angle * np.array((0.6, 0.0, 0.8)))
     assert np.allclose(rotation_of(rotation_vector(turned)), turned, atol=1e-9)
-    assert np.allclose(rotation(quaternion_of(turned)), turned, atol=1e-9)
+    quaternion = quaternion_of(turned)
+    assert quaternion[0] >= 0.0
+    assert np.allclose(rotation(quaternion), turned, atol=1e-9)
+    axes = np.empty((3, 3))
+    write_axes(quaternion, axes)
+    assert np.allclose(axes, turned, atol=1e-9)
 
 
 def test_a_course_has_every_action_of_its_plan_once() -> None:

@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from clamber.families.spatial.execution.course import Course
+from clamber.families.spatial.execution.course import Course, grabs
 from clamber.families.spatial.pictures.trials_text import print_spatial_trials
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws, read_spatial_flaws
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
-from clamber.families.spatial.trials.drawn import drawn, holds_of
+from clamber.families.spatial.trials.drawn import drawn
 from clamber.families.spatial.trials.law_trials import first_steps
 from clamber.families.spatial.trials.noise import SPATIAL_NOISE, named_spatial_noise, read_spatial_noise
 from clamber.families.spatial.trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
@@ -123,7 +123,7 @@ def test_one_number_tells_what_a_seed_drew_for_the_holds_of_a_plan(task: Spatial
     noise = read_spatial_noise(named_spatial_noise("usual"), ["payload=20 %", "push=10 %"])
     plan = first_steps(task)
     told = drawn(noise, task, plan, 7)
-    made, holds = noise.deviations(task.robot, task.world, 7), holds_of(task, plan)
+    made, holds = noise.deviations(task.robot, task.world, 7), sorted({hold for _, hold in grabs(task, plan)})
     assert set(holds) >= {action.hold - 1 for action in plan.actions if action.hold} and len(holds) <= 4 + len(
         plan.actions
     )

@@ -10,30 +10,14 @@ import math
 
 import numpy as np
 
-from ....compiled import inlined, kernel
+from ....compiled import kernel
 from ....control.whole_body.tree import FREE
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
+from .turn_kernels import shift_by, turn_by
 
 IDENTITY = np.eye(3)
 PHI, VELOCITY, POSITION, GYRO, ACCELEROMETER, CONTACTS = 0, 3, 6, 9, 12, 15
 """First row of each error; contact i has three rows from `CONTACTS + 3 i` on, and its direction those that `turn_at` says."""
-
-
-@inlined
-def turn_by(x, y, z, matrix):
-    """Turn the columns of a rotation by a rotation vector in world axes (Rodrigues)."""
-    angle = math.sqrt(x * x + y * y + z * z)
-    if angle < 1e-9:
-        a, b = 1.0, 0.5
-    else:
-        a, b = math.sin(angle) / angle, (1.0 - math.cos(angle)) / (angle * angle)
-    for c in range(3):
-        u, v, w = matrix[0, c], matrix[1, c], matrix[2, c]
-        cx, cy, cz = y * w - z * v, z * u - x * w, x * v - y * u
-        dx, dy, dz = y * cz - z * cy, z * cx - x * cz, x * cy - y * cx
-        matrix[0, c] = u + a * cx + b * dx
-        matrix[1, c] = v + a * cy + b * dy
-        matrix[2, c] = w + a * cz + b * dz
 
 
 @kernel
@@ -99,8 +83,7 @@ def predict(belief, gyro, accelerometer, gravity, noise, dt):
     r, v, p, p_ = belief.rotation, belief.velocity, belief.position, belief.covariance
     flow(p_, r, v, p, belief.places, belief.holds, gravity, dt)
     transpose(p_)
-    flow(p_, r, v, p, belief.places, belief.holds, gravity, dt)
-    transpose(p_)
+    flow(p_, r, v, p, belief.places, belief.holds, gravity, dt)  # its transpose is the same once it is made symmetric
     n = p_.shape[0]
     turned, pushed = (noise[0] * dt) ** 2, (noise[1] * dt) ** 2
     for a in range(3):
@@ -187,16 +170,6 @@ def apply_error(belief):
                 turn_by(-e[at], -e[at + 1], -e[at + 2], belief.directions[limb])
     for a in range(e.size):
         e[a] = 0.0
-
-
-@inlined
-def shift_by(x, y, z, ex, ey, ez, vector):
-    """A vector turned by a small rotation in world axes, less an error."""
-    u, v, w = vector[0], vector[1], vector[2]
-    cx, cy, cz = y * w - z * v, z * u - x * w, x * v - y * u
-    vector[0] = u + cx + 0.5 * (y * cz - z * cy) - ex
-    vector[1] = v + cy + 0.5 * (z * cx - x * cz) - ey
-    vector[2] = w + cz + 0.5 * (x * cy - y * cx) - ez
 
 
 @kernel
@@ -345,6 +318,35 @@ def take_height(belief, limb, place, normal, variance, row):
         off += normal[a] * (d[a] - place[a])
     take_row(belief, row, off, variance)
     apply_error(belief)
+
+
+@kernel
+def tell(belief, own, gyro, late, state):
+    """The state that is believed of now, into `state`.
+
+    Args:
+        belief: As in `predict`, of `late` before now [s].
+        own: Joints as the encoders had them then.
+        gyro: Its reading, base frame [rad/s].
+        late: By which sensors tell what was [s].
+        state: Filled.
+    """
+    r, s = belief.rotation, state.speed
+    for a in range(3):
+        s[3 + a] = gyro[a] - belief.biases[a]
+    x = late * (r[0, 0] * s[3] + r[0, 1] * s[4] + r[0, 2] * s[5])
+    y = late * (r[1, 0] * s[3] + r[1, 1] * s[4] + r[1, 2] * s[5])
+    z = late * (r[2, 0] * s[3] + r[2, 1] * s[4] + r[2, 2] * s[5])
+    for a in range(3):
+        s[a] = belief.velocity[a]
+        state.position[a] = belief.position[a] + late * belief.velocity[a]
+        for b in range(3):
+            state.rotation[a, b] = r[a, b]
+    if late > 0.0:
+        turn_by(x, y, z, state.rotation)
+    for k in range(own.joints.size):
+        s[FREE + k] = own.speed[FREE + k]
+        state.joints[k] = own.joints[k] + late * s[FREE + k]
 
 
 @kernel

@@ -215,3 +215,46 @@ def bear_loads(aims, felt, wrenches, touch, loads, pushing, fading, stand):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
+
+
+@kernel
+def find_resting(does, holds, pushing, closed, resting):
+    """Index of the hold that each limb's tip stays on, -1: on none, into `resting`; an end effector that is open stays nowhere."""
+    for limb in range(does.size):
+        stays = does[limb] == HOLDS and (pushing[limb] or closed[limb] != 0)
+        resting[limb] = holds[limb] if stays else -1
+
+
+@kernel
+def count_open(holds, pushing, fading, closed, felt, sought, opened):
+    """Count the ticks for which each limb that is to hold on has not; whether any is to be looked at.
+
+    Args:
+        holds: Index of the hold that each is to hold on to, -1: to none, shape (limbs,).
+        pushing: 1 of limbs that stand by friction alone, shape (limbs,).
+        fading: The limb whose load fades before it lets go; -1: none.
+        closed: Switches of the end effectors, shape (limbs,).
+        felt: Readings in a row at which a tip felt something, shape (limbs,).
+        sought: How deep feet in the air have felt for their ground [m], NaN: they are not in the air. Shape (limbs,).
+        opened: The ticks, in place, shape (limbs,).
+    """
+    some = False
+    for limb in range(holds.size):
+        if holds[limb] < 0 or (pushing[limb] and limb == fading):
+            opened[limb] = 0
+        elif not math.isnan(sought[limb]):
+            some = True
+        else:
+            on = felt[limb] if pushing[limb] else closed[limb]
+            opened[limb] = 0 if on else opened[limb] + 1
+            some = some or opened[limb] > 0
+    return some
+
+
+@kernel
+def largest_share(torques, limits):
+    """The largest part of its limit that any joint is driven with [-]."""
+    most = 0.0
+    for k in range(torques.size):
+        most = max(most, abs(torques[k]) / limits[k])
+    return most

@@ -17,6 +17,7 @@ from ....execution.run_report import (
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
 from ....types import Floats
+from ..control.task_kernels import largest_share
 from ..planning.task import SpatialTask
 from .carrying_report import (
     CarryingReport,
@@ -229,8 +230,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def _watch(self) -> None:
         """After every tick."""
         report, law = self.report, self.body.law
-        report.off = max(report.off, math.dist(law.aims.position, law.state.position))
-        report.torque = max(report.torque, float((np.abs(law.torques) / law.limits.torque).max()))
+        report.off = max(report.off, self.body.off)
+        report.torque = max(report.torque, largest_share(law.torques, law.limits.torque))
 
 
 def pose_of(position: Floats, rotation: Floats) -> tuple[float, ...]:

@@ -124,6 +124,14 @@ class Course:
         return cls(standings[0], tuple(motions))
 
 
+def grabs(task: SpatialTask, plan: Plan) -> list[tuple[int, int]]:
+    """Index of a limb and of its hold: those of the start, then those that the plan takes, in its order."""
+    chosen = plan_family(task).problem(task).start[0]["hold"]
+    names = task.robot.chains.limb_names
+    held = [(limb, int(chosen[limb])) for limb in range(len(names)) if chosen[limb] >= 0]
+    return held + [(names.index(str(one.limb)), one.hold - 1) for one in plan.actions if one.hold]
+
+
 def _standing(task: SpatialTask, stance: np.void) -> Standing:
     limbs = len(task.robot.chains.limb_names)
     most = task.robot.chains.lower.shape[1]

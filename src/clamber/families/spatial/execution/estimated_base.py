@@ -4,10 +4,10 @@ from typing import Final
 
 import numpy as np
 
-from ....control.whole_body.tree import FREE, State, Tree
+from ....control.whole_body.tree import State, Tree
 from ....types import Floats, Ints
 from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
-from ..control.base_filter_kernels import turn_by
+from ..control.base_filter_kernels import tell
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
@@ -56,7 +56,7 @@ class EstimatedBase:
         self._map, self._normals = world.places.copy(), world.normals.copy()
         self._bears = [end.bears() for end in robot.ends]
         self._spreads = np.full(len(world.holds), settings.hold)
-        self._on: Ints = np.full(limbs, -1, np.int32)
+        self._on = [-1] * limbs
         self._number = -1
         motors = Motors.of(robot)
         self._body = Followed.of(tree, FIRM * motors.torque, np.where(motors.sliding, 0.0, play / 2.0))
@@ -64,7 +64,7 @@ class EstimatedBase:
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """See `Belief`."""
         self.filter.begin(pose.rotation, pose.position)
-        self._on[:] = -1
+        self._on = [-1] * len(self._on)
         self._body.own.joints[:] = sensed.joints[0]
         self._body.own.speed[:] = self._body.pushed[:] = 0.0
         self._number = int(sensed.number[0])
@@ -74,13 +74,16 @@ class EstimatedBase:
         passed = int(sensed.number[0]) - self._number
         self._number += passed
         self.filter.follow(self._tree, self._body, sensed, passed * self._period)
-        for limb in np.flatnonzero(holds != self._on).tolist():
-            self._change(limb, int(holds[limb]))
-        self._tell(sensed, state)
+        now = holds.tolist()
+        if now != self._on:
+            for limb, hold in enumerate(now):
+                if hold != self._on[limb]:
+                    self._change(limb, hold)
+        tell(self.filter.believed, self._body.own, sensed.gyro, self._late, state)
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""
-        before = int(self._on[limb])
+        before = self._on[limb]
         if before >= 0:
             self.places[before] = self.filter.believed.places[limb]
             self._spreads[before] = max(self.filter.spread(limb), LEAST)
@@ -108,15 +111,3 @@ class EstimatedBase:
         normal, along = self._normals[hold], self.filter.believed.directions[limb, :, 0]
         across: Floats = np.cross(normal, along)
         return np.stack((normal, across / np.linalg.norm(across)))
-
-    def _tell(self, sensed: SpatialSensed, state: State) -> None:
-        """The belief as of now."""
-        believed, own = self.filter.believed, self._body.own
-        spin = sensed.gyro - believed.biases[:3]
-        state.rotation[:] = believed.rotation
-        state.position[:] = believed.position + self._late * believed.velocity
-        state.joints[:] = own.joints + self._late * own.speed[FREE:]
-        state.speed[:3], state.speed[3:FREE], state.speed[FREE:] = believed.velocity, spin, own.speed[FREE:]
-        if self._late > 0.0:
-            x, y, z = self._late * (believed.rotation @ spin)
-            turn_by(x, y, z, state.rotation)

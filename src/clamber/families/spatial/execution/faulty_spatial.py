@@ -22,7 +22,7 @@ from ....units import GRAVITY
 from ..planning.task import SpatialTask
 from ..robot.chains import Chains
 from ..robot.robot import SpatialRobot
-from .course import Course, Regrab
+from .course import grabs
 from .plant import (
     Pose,
     SpatialPlant,
@@ -47,9 +47,7 @@ def failing_of(task: SpatialTask, plan: Plan) -> Failing:
     """Sensors, motors, and the holds that the plan comes to first with end effectors that attach."""
     robot = task.robot
     names = sensor_names(robot)
-    course, attaches = Course.of(task, plan), [end.bears().capture > 0.0 for end in robot.ends]
-    taken = [int(hold) for limb, hold in enumerate(course.start.holds) if hold >= 0 and attaches[limb]]
-    taken += [one.hold for one in course.motions if isinstance(one, Regrab) and attaches[one.limb]]
+    taken = [hold for limb, hold in grabs(task, plan) if robot.ends[limb].bears().capture > 0.0]
     holds = tuple(hold + 1 for hold in dict.fromkeys(taken))[:GRABS]
     sensors = dict(zip(names, sensor_ranges(robot).tolist(), strict=True))
     joints = names[: int(robot.chains.n_joints.sum())]

@@ -22,7 +22,7 @@ from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
 from ..control.laws import USUAL, body_law
-from ..control.task_kernels import bear_loads
+from ..control.task_kernels import bear_loads, count_open, find_resting
 from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World
@@ -96,7 +96,9 @@ class LimbedBody:
         """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
-        self._open = np.zeros(limbs, np.int64)
+        self.off = 0.0
+        """How far it is from where it is to be, as believed [m]."""
+        self._resting, self._open = np.full(limbs, -1, np.int32), np.zeros(limbs, np.int64)
         self._felt = np.zeros(limbs, np.int64)
         """Readings in a row above `touch`, shape (limbs,)."""
         self.fading = -1
@@ -106,6 +108,7 @@ class LimbedBody:
         """Called after each tick."""
         self._pressed = np.zeros((limbs, 3))
         """Normals that limbs press against, shape (limbs, 3)."""
+        self._presses = False
         self._push = np.zeros(limbs)
         self._sought = np.full(limbs, math.nan)
         """How deep feet in the air have felt [m]."""
@@ -230,11 +233,12 @@ class LimbedBody:
             normal: Of the surface.
             force: With which it presses, besides what it misses of its aim makes [N].
         """
-        self._pressed[limb], self._push[limb] = normal, force
+        self._pressed[limb], self._push[limb], self._presses = normal, force, True
 
     def relax(self, limb: int) -> None:
         """From now on a limb presses against nothing."""
         self._pressed[limb] = self._push[limb] = 0.0
+        self._presses = bool(self._pressed.any())
 
     def tick(self) -> None:
         """Let a control period pass.
@@ -258,12 +262,13 @@ class LimbedBody:
         self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
+        self.off = math.dist(aims.position, law.state.position)
         if self.told is not None:
             self.told()
-        off = math.dist(aims.position, law.state.position)
-        if off > self.pace.lost:
-            raise FallenError(f"the body is {1e3 * off:.0f} mm from where it is to be")
-        self._feel_holds()
+        if self.off > self.pace.lost:
+            raise FallenError(f"the body is {1e3 * self.off:.0f} mm from where it is to be")
+        if count_open(self.holds, self._pushing, self.fading, self.sensed.closed, self._felt, self._sought, self._open):
+            self._feel_holds()
 
     def brace(self) -> None:
         """From now on the robot holds its posture, joint by joint: something of it has failed."""
@@ -280,7 +285,7 @@ class LimbedBody:
     def _press(self, torques: Floats) -> None:
         """What pressing limbs miss of their aims, as springs would press: their own inertia is too little."""
         law, stiffness = self.law, self.pace.pressing
-        if not self._pressed.any():
+        if not self._presses:
             return
         for limb in np.flatnonzero(self._pressed.any(axis=1)).tolist():
             normal = self._pressed[limb]
@@ -289,10 +294,6 @@ class LimbedBody:
             torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
             np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
 
-    def _stands(self, limb: int) -> bool:
-        """Whether a limb stands on its hold by friction alone, and is to go on doing so."""
-        return bool(self._pushing[limb]) and limb != self.fading
-
     def seeks(self, limb: int) -> bool:
         """Whether a limb that was to stand on its hold is in the air, and feels for it."""
         return not math.isnan(self._sought[limb])
@@ -300,19 +301,13 @@ class LimbedBody:
     def _feel_holds(self) -> None:
         """Notice what has come off, and have feet that were lifted off their holds find them again."""
         for limb, hold in enumerate(self.holds.tolist()):
-            if hold < 0 or (self._pushing[limb] and not self._stands(limb)):
-                self._open[limb] = 0
-                continue
-            if self.seeks(limb):
+            if hold >= 0 and self.seeks(limb) and limb != self.fading:
                 self._seek(limb, hold)
-                continue
-            felt = self.sensed.closed[limb] if self.attaches(limb) else self._felt[limb]
-            self._open[limb] = 0 if felt else self._open[limb] + 1
-            if self.attaches(limb) and self._open[limb] == OPEN:
+            elif self.attaches(limb) and self._open[limb] == OPEN:
                 self._open[limb] = 0
                 self.let_go(limb)
                 raise LostHoldError(limb, hold)
-            if self._open[limb] * self.plant.period > LIFTED * self.pace.shift:
+            elif self._open[limb] * self.plant.period > LIFTED * self.pace.shift:
                 self._sought[limb], self._open[limb] = 0.0, 0
                 self.press(limb, self.world.normals[hold])
 
@@ -344,6 +339,6 @@ class LimbedBody:
         aims.velocity[:] = aims.acceleration[:] = 0.0
 
     def _believe(self) -> None:
-        held = (self.law.aims.does == HOLDS) & (self._pushing | (self.sensed.closed != 0))  # what is open stays nowhere
-        self.belief.update(self.sensed, np.where(held, self.holds, -1), self.law.state)
+        find_resting(self.law.aims.does, self.holds, self._pushing, self.sensed.closed, self._resting)
+        self.belief.update(self.sensed, self._resting, self.law.state)
         self.law.look()

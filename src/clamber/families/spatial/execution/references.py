@@ -7,6 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
+from ..control.turn_kernels import turn_by, write_quaternion
 
 PEAK_SPEED: Final = 1.875
 """Of a quintic from rest to rest, of its way per its time [-] ..."""
@@ -105,12 +106,9 @@ def swing_seconds(way: float, lift: float, acceleration: float) -> float:
 
 def rotation_of(vector: Floats) -> Floats:
     """Rotation about an axis by an angle, both as one vector [rad], shape (3, 3)."""
-    angle = float(np.linalg.norm(vector))
-    x, y, z = vector
-    cross = np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
-    first = math.sin(angle) / angle if angle > 1e-9 else 1.0
-    second = (1.0 - math.cos(angle)) / angle**2 if angle > 1e-6 else 0.5
-    made: Floats = np.eye(3) + first * cross + second * (cross @ cross)
+    made = np.eye(3)
+    x, y, z = vector.tolist()
+    turn_by(x, y, z, made)
     return made
 
 
@@ -132,7 +130,6 @@ def rotation_vector(rotation: Floats) -> Floats:
 
 def quaternion_of(rotation: Floats) -> Floats:
     """Unit quaternion w, x, y, z of a rotation, w not negative, shape (4,)."""
-    vector = rotation_vector(rotation)
-    angle = float(np.linalg.norm(vector))
-    share = math.sin(0.5 * angle) / angle if angle > 1e-9 else 0.5
-    return np.array((math.cos(0.5 * angle), *(share * vector)))
+    made = np.empty(4)
+    write_quaternion(np.ascontiguousarray(rotation), made)
+    return made

@@ -1,10 +1,11 @@
-"""What a robot feels, as kernels: how its base moves, which hold is nearest, wrenches on tips, and whether these hold."""
+"""What a robot feels, as kernels: its sensors, which hold is nearest, wrenches on tips, and whether these hold."""
 
 import math
 
 import numpy as np
 
 from ....compiled import inlined, kernel
+from ..control.turn_kernels import write_axes
 
 CONE, PAD, HOOK, SPINE = range(4)
 FORMS = {"cone": CONE, "pad": PAD, "hook": HOOK, "spine": SPINE}
@@ -35,6 +36,10 @@ END = np.dtype(
         ("slope", "f8"),  # tangent of a hook's opening or of a spine's angle
         ("moments", "i8"),
         ("touch", "f8"),  # forces below it neither slip nor leave where nothing pulls [N]
+        ("capture", "f8"),  # from how far it attaches [m], 0: it only pushes
+        ("nearest", "i8"),  # index of the hold whose patch is nearest, -1: there is none
+        ("gap", "f8"),  # distance from that patch [m]
+        ("under", "i8"),  # index of the hold whose patch is beneath it
         # while it is attached
         ("hold", "i8"),  # index, -1: to none
         ("mu", "f8"),
@@ -100,21 +105,24 @@ def dot(a, b):
 
 
 @kernel
-def feel_ends(ends, axes, readings, wrenches, local, given):
-    """What acts on every tip, and what gives way.
+def feel_ends(ends, axes, sites, readings, shutting, wrenches, local, given):
+    """What acts on every tip, and what gives way; whether anything does.
 
     Args:
         ends: Records of `END`; `over` is counted.
-        axes: Of the end effectors in the world, row by row, shape (limbs, 9).
+        axes: Of all sites in the world, row by row, shape (sites, 9).
+        sites: Of the end effectors, shape (limbs,).
         readings: Force and moment of what carries each tip on it, in its own frame, shape (limbs, 6).
+        shutting: Ticks until jaws have shut: what they draw with themselves is not counted. Shape (limbs,).
         wrenches: Filled: of the surface on each tip, world frame, shape (limbs, 6).
         local: Filled: the same in the end effector's frame.
         given: Filled: what gives way (`WORDS`), shape (limbs,); `HOLDS` of those that are not attached.
     """
     normal, first, second = np.empty(3), np.empty(3), np.empty(3)
+    some = False
     for limb in range(ends.shape[0]):
         end = ends[limb]
-        turn = axes[limb]
+        turn = axes[sites[limb]]
         for part in range(0, 6, 3):
             for i in range(3):
                 local[limb, part + i] = -readings[limb, part + i]
@@ -146,30 +154,35 @@ def feel_ends(ends, axes, readings, wrenches, local, given):
             end, dot(force, normal), dot(force, first), dot(force, second), dot(moment, normal), dot(moment, first),
             dot(moment, second),
         )  # fmt: skip
-        end.over = 0 if given[limb] == HOLDS else end.over + 1
+        end.over = 0 if given[limb] == HOLDS or shutting[limb] > 0 else end.over + 1
+        some = some or end.over > 0
+    return some
 
 
 @kernel
-def nearest_holds(tips, held, places, normals, radii, nearest, gaps):
-    """The hold whose patch is nearest each tip.
+def nearest_holds(tips, sites, ends, places, normals, radii):
+    """The hold whose patch is nearest each tip; whether that is another than before, or a tip that may attach is attached to none.
 
     Args:
-        tips: World frame [m], shape (limbs, 3).
-        held: Index of the hold that each is attached to, which stays its nearest; -1: none. Shape (limbs,).
+        tips: Of all sites, world frame [m], shape (sites, 3).
+        sites: Of the tips, shape (limbs,).
+        ends: Records of `END`: the hold that each is attached to stays its nearest; `nearest` and `gap` are filled.
         places, normals: Of the holds, shape (holds, 3); normals out of the surface.
         radii: Of their patches [m], shape (holds,); negative: the hold is no more.
-        nearest: Filled: index, -1 where there is none, shape (limbs,).
-        gaps: Filled: distance from the patch [m], shape (limbs,).
     """
-    for limb in range(tips.shape[0]):
-        if held[limb] >= 0:
+    some = False
+    for limb in range(sites.size):
+        end = ends[limb]
+        if end.hold >= 0:
+            some = some or end.nearest != end.under
             continue
-        nearest[limb] = -1
+        tip = tips[sites[limb]]
+        nearest = -1
         best = math.inf
         for k in range(places.shape[0]):
             if radii[k] < 0.0:
                 continue
-            x, y, z = tips[limb, 0] - places[k, 0], tips[limb, 1] - places[k, 1], tips[limb, 2] - places[k, 2]
+            x, y, z = tip[0] - places[k, 0], tip[1] - places[k, 1], tip[2] - places[k, 2]
             square = x * x + y * y + z * z
             if square > (best + radii[k]) * (best + radii[k]):
                 continue
@@ -178,23 +191,18 @@ def nearest_holds(tips, held, places, normals, radii, nearest, gaps):
             gap = math.sqrt(out * out + aside * aside)
             if gap < best:
                 best = gap
-                nearest[limb] = k
-        gaps[limb] = best
+                nearest = k
+        end.nearest, end.gap = nearest, best
+        some = some or end.capture > 0.0 or nearest != end.under
+    return some
 
 
 @kernel
-def mean_motion(now, qvel, gravity, seconds, turn, velocity, mean):
-    """Mean angular velocity [rad/s] and specific force [m/s^2] of a base over a time, base frame.
-
-    Args:
-        now: Axes of the base at the end of the time, as columns, shape (3, 3).
-        qvel: MuJoCo's, of the base first.
-        gravity: World frame [m/s^2], shape (3,).
-        seconds: The time.
-        turn: As `now`, at its start; then at its end.
-        velocity: Of its origin at the start [m/s], shape (3,); then at its end.
-        mean: Filled, shape (6,).
-    """
+def mean_motion(read, seconds):
+    """Mean angular velocity [rad/s] and specific force [m/s^2] of a base over the time since the reading before, base frame."""
+    turn, velocity, mean = read.turn, read.velocity, read.mean
+    now = np.empty((3, 3))
+    write_axes(read.qpos[3:7], now)
     for a in range(3):
         b, c = (a + 1) % 3, (a + 2) % 3
         up, down = 0.0, 0.0
@@ -205,10 +213,51 @@ def mean_motion(now, qvel, gravity, seconds, turn, velocity, mean):
     for a in range(3):
         total = 0.0
         for k in range(3):
-            push = (qvel[k] - velocity[k]) / seconds - gravity[k]
+            push = (read.qvel[k] - velocity[k]) / seconds - read.gravity[k]
             total += push * 0.5 * (turn[k, a] + now[k, a])
         mean[3 + a] = total
     for a in range(3):
-        velocity[a] = qvel[a]
+        velocity[a] = read.qvel[a]
         for k in range(3):
             turn[a, k] = now[a, k]
+
+
+@kernel
+def read_sensors(read, noise, force_noise, tick, passed, period, sensed):
+    """What all sensors say at a tick, after their delay.
+
+    Args:
+        read: What is read, and what is kept of readings (`sensing.Read`).
+        noise: Of the inertial unit, with its biases, shape (6,).
+        force_noise: Of the wrenches, shape (limbs, 6).
+        tick: Number of this reading, from 0.
+        passed: Time since the reading before [s]; 0: this is that one again.
+        period: Of the control [s].
+        sensed: Filled.
+    """
+    depth = read.joints.shape[0]
+    now, late = tick % depth, max(0, tick - depth + 1) % depth
+    for k in range(read.at.size):
+        angle, speed, counts = read.qpos[read.at[k]], read.qvel[read.speed_at[k]], read.counts[k]
+        if counts > 0.0:
+            angle = math.floor(angle * counts + 0.5) / counts
+            speed = 0.0 if tick == 0 else (angle - read.before[k]) / period
+            read.before[k] = angle
+        read.joints[now, 0, k], read.joints[now, 1, k] = angle, speed
+    if passed > 0.0:
+        mean_motion(read, passed)
+    for a in range(6):
+        read.motions[now, a] = read.mean[a] + noise[a]
+    for limb in range(read.closed.size):
+        for a in range(6):
+            read.wrenches[now, limb, a] = read.felt[limb, a] + force_noise[limb, a]
+    for k in range(read.at.size):
+        sensed.joints[0, k], sensed.joints[1, k] = read.joints[late, 0, k], read.joints[late, 1, k]
+        sensed.torques[k] = read.given[k]
+    for a in range(3):
+        sensed.gyro[a], sensed.accelerometer[a] = read.motions[late, a], read.motions[late, 3 + a]
+    for limb in range(read.closed.size):
+        for a in range(6):
+            sensed.wrenches[limb, a] = read.wrenches[late, limb, a]
+        sensed.closed[limb], sensed.shutting[limb] = read.closed[limb], read.shutting[limb] > 0
+    sensed.number[0] = tick

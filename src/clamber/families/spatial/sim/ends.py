@@ -94,9 +94,10 @@ class Ends:
         self.local: Final = np.zeros((n, 6))
         """The same in the end effector's frame."""
         self._given = np.zeros(n, np.int64)
-        self._nearest, self._under, self._gaps = np.zeros(n, np.int64), np.full(n, -2), np.zeros(n)
+        self._ends["capture"], self._ends["under"] = self._capture, -2
+        self._nearest, self._under, self._gaps = (self._ends[key] for key in ("nearest", "under", "gap"))
         self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
-        self.shutting: Final = np.zeros(n, np.int64)
+        self.shutting: Final = np.zeros(n, np.int32)
         """Ticks until jaws have shut, shape (limbs,)."""
         self._anchors, self._seats = (
             np.zeros((n, 3)),
@@ -156,32 +157,30 @@ class Ends:
 
     def look(self) -> None:
         """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""
-        tips = self._site_places[self._sites]
-        nearest_holds(tips, self._ends["hold"], self._places, self._normals, self._radii, self._nearest, self._gaps)
-        for limb, hold in enumerate(self._nearest.tolist()):
-            if hold != self._under[limb]:
-                self._put_beneath(limb, hold)
-            if self._capture[limb] and self._ends["hold"][limb] < 0:
-                self._open_recess(limb, hold)
-            if (
-                self._wanted[limb]
-                and not self._spent[limb]
-                and self._ends["hold"][limb] < 0
-                and self._catches(limb, hold)
-            ):
-                if self._flaws.miss > 0.0 and self._chance.random() < self._flaws.miss:
-                    self._spent[limb] = True
-                else:
-                    self._attach(limb, hold)
-        for limb in np.flatnonzero(self.shutting).tolist():
-            self._shut(limb)
+        if nearest_holds(self._site_places, self._sites, self._ends, self._places, self._normals, self._radii):
+            for limb, hold in enumerate(self._nearest.tolist()):
+                if hold != self._under[limb]:
+                    self._put_beneath(limb, hold)
+                if self._capture[limb] and self._ends["hold"][limb] < 0:
+                    self._open_recess(limb, hold)
+                    if self._wanted[limb] and not self._spent[limb] and self._catches(limb, hold):
+                        self._take(limb, hold)
+        if self.shutting.any():
+            for limb in np.flatnonzero(self.shutting).tolist():
+                self._shut(limb)
+
+    def _take(self, limb: int, hold: int) -> None:
+        """Attach a limb, unless the attempt fails."""
+        if self._flaws.miss > 0.0 and self._chance.random() < self._flaws.miss:
+            self._spent[limb] = True
+        else:
+            self._attach(limb, hold)
 
     def feel(self, time: float) -> None:
         """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
-        axes = self._site_axes[self._sites]
-        feel_ends(self._ends, axes, self._readings, self.wrenches, self.local, self._given)
-        self._ends["over"][self.shutting > 0] = 0  # what the jaws themselves draw with
-        if self._ends["over"].any():
+        if feel_ends(
+            self._ends, self._site_axes, self._sites, self._readings, self.shutting, self.wrenches, self.local, self._given
+        ):  # fmt: skip
             for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
                 self._come_off(limb, time)
 

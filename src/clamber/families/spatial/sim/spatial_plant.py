@@ -9,25 +9,21 @@ import numpy as np
 from ....execution.plant import PlantStoppedError
 from ....sim.electronics import (
     limit_torques,
-    read_encoders,
     take_torques,
 )
-from ....sim.force_sensing import WrenchReader
-from ....sim.limb_flaws import ForceSensor
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
-from ....units import GRAVITY
+from ..control.turn_kernels import write_axes
 from ..execution.plant import (
     Pose,
     SpatialSensed,
     SpatialTruth,
 )
-from ..robot.bodies import rotation
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .ends import Ends
-from .imu import Imu
+from .sensing import Sensing
 from .spatial_flaws import Deviations, SpatialFlaws
 from .spatial_model import (
     TrueWorld,
@@ -70,7 +66,7 @@ class SpatialSim:
         self._step, self._mujoco = mujoco.mj_step, mujoco
         model, data, chains = self.model, self._data, robot.chains
         names = [name for limb in chains.joint_names for name in limb]
-        n, limbs = len(names), len(chains.limb_names)
+        n = len(names)
         joints = [model.joint(name) for name in names]
         # views of memory that stays where it is: asking for one costs a microsecond
         self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
@@ -90,18 +86,22 @@ class SpatialSim:
             self._agility = (
                 2.0 * self._limits / motors.rotor
             )  # a load on the motor's side brings no more than the motor itself
-        self._counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
+        counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
         self._names = names
-        self._ring, self._before = np.zeros((flaws.late + 1, 1, 2, n)), np.zeros((1, n))
         self._wanted, self._given, self._also = np.zeros((1, n)), np.zeros((1, n)), np.zeros((1, n))
-        self.sensed: Final = SpatialSensed.of(chains)
-        """What the sensors said last."""
         self.ends: Final = Ends(robot, world, true.deviations, flaws, model, data)
-        self._imu = Imu(flaws, data, np.array(world.gravity, np.float64))
-        spread = flaws.force_noise * robot.chains.total_mass * GRAVITY
-        reach = float(model.stat.extent) / 2.0
-        sensor = ForceSensor(noise=spread, moment_noise=0.1 * reach * spread, seed=flaws.seed or 0)
-        self._feeling = WrenchReader(sensor, period=self.period, delay=flaws.late, batch=limbs)
+        self._sensing = Sensing(
+            chains,
+            flaws,
+            (self._at, self._speed_at, counts),
+            data,
+            np.array(world.gravity, np.float64),
+            float(model.stat.extent) / 2.0,
+            self._given[0],
+            (self.ends.local, self.ends.closed, self.ends.shutting),
+        )
+        self.sensed: Final = self._sensing.sensed
+        """What the sensors said last."""
         self._pushes, self._next_push = true.deviations.pushes, 0
         self._pushed = data.xfrc_applied[model.body("base").id]
         self._sites = np.array([model.site(tip_name(name)).id for name in chains.limb_names])
@@ -130,10 +130,9 @@ class SpatialSim:
         self.ends.reset(held)
         mujoco.mj_forward(model, data)
         self.ends.feel(0.0)
-        self._wanted[:] = self._given[:] = self._ring[:] = 0.0
+        self._wanted[:] = self._given[:] = 0.0
         self._next_push = 0
-        self._imu.reset()
-        self._feeling.reset()
+        self._sensing.reset()
         self.tick = 0
 
     def _seat(self, limb: int, place: Floats) -> None:
@@ -155,18 +154,7 @@ class SpatialSim:
 
     def sense(self) -> SpatialSensed:
         """Read the sensors, once a tick."""
-        sensed = self.sensed
-        angles, speeds = self._qpos[None, self._at], self._qvel[None, self._speed_at]
-        read_encoders(
-            angles, speeds, self._counts, self.period, self.tick, self._ring, self._before, sensed.joints[None]
-        )
-        self._imu.read(self.tick, sensed.gyro, sensed.accelerometer)
-        sensed.wrenches[:] = self._feeling.read(self.ends.local, self.tick)
-        sensed.torques[:] = self._given[0]
-        sensed.closed[:] = self.ends.closed
-        sensed.shutting[:] = self.ends.shutting > 0
-        sensed.number[0] = self.tick
-        return sensed
+        return self._sensing.read(self.tick)
 
     def actuate(self, torques: Floats) -> None:
         """See `SpatialPlant`.
@@ -236,7 +224,8 @@ class SpatialSim:
         seen = self._seen
         seen.qpos[:] = self._qpos
         self._mujoco.mj_kinematics(self.model, seen)
-        turn = rotation(self._qpos[3:7])
+        turn = np.empty((3, 3))
+        write_axes(self._qpos[3:7], turn)
         joints = np.stack((self._qpos[self._at], self._qvel[self._speed_at]))
         joints[0, self._played] += self._qpos[self._play_at]
         joints[1, self._played] += self._qvel[self._play_speed_at]

@@ -11,9 +11,9 @@ from ....types import Floats, Records
 from ..robot.chains import Chains
 from ..robot.contacts import Contact
 from .checks import STANCE_CHECKS
-from .judging_kernels import judge_each
 from .records import BODY, CONTACT, JUDGED, RULES, WORK, robot_record
 from .seeds import SeedTable, seed_table
+from .stance_kernels import judge_each
 
 Reasons: TypeAlias = npt.NDArray[np.int64]
 """Numbers of checks (`STANCE_CHECKS`), -1 for none."""

@@ -304,3 +304,11 @@ def swing_reach(robot, body, limb, swing, before, lift, work):
         if room < 0.0:
             return room
     return room
+
+
+@kernel
+def judge_each(robot, tables, stances, before, rules, work):
+    """Judge stances (bodies, contacts, what is written, reasons) from one stance before (`judge`)."""
+    bodies, contacts, out, reasons = stances
+    for i in range(len(bodies)):
+        reasons[i] = judge(robot, tables, bodies[i], contacts[i], before, rules, out[i], work)

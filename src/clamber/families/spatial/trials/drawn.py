@@ -6,9 +6,9 @@ from ....planning.problem.plan import Plan
 from ....types import Floats
 from ....units import GRAVITY
 from ..control.believed_tree import flat
-from ..execution.course import Course
+from ..execution.course import grabs
 from ..planning.task import SpatialTask
-from ..sim.imu import chance_of, drawn_biases
+from ..sim.sensing import chance_of, drawn_biases
 from ..sim.spatial_flaws import SpatialFlaws
 from .noise import SpatialNoise
 
@@ -38,7 +38,7 @@ def drawn(noise: SpatialNoise, task: SpatialTask, plan: Plan, seed: int) -> dict
     """
     robot, world = task.robot, task.world
     chains = robot.chains
-    holds = holds_of(task, plan)
+    holds = sorted({hold for _, hold in grabs(task, plan)})
     made = noise.deviations(robot, world, seed)
     flaws = noise.flaws(SpatialFlaws(), seed)
     biases = drawn_biases(flaws, chance_of(flaws))
@@ -72,14 +72,6 @@ def drawn(noise: SpatialNoise, task: SpatialTask, plan: Plan, seed: int) -> dict
     }
     widths = noise.widths
     return {key: float(value) if widths[key] else 0.0 for key, value in found.items()}
-
-
-def holds_of(task: SpatialTask, plan: Plan) -> list[int]:
-    """Indices of the holds that a plan takes, those of its start included."""
-    start = Course.of(task, plan).start.holds
-    return sorted(
-        {int(hold) for hold in start if hold >= 0} | {action.hold - 1 for action in plan.actions if action.hold}
-    )
 
 
 def _mean(sizes: Floats) -> float:
