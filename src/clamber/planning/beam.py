@@ -14,7 +14,7 @@ from .shorten import Shortened, shorten
 WIDER: Final = 4
 """A beam's width as a multiple of the one before that found nothing."""
 WIDENINGS: Final = 2
-"""How often a beam that finds nothing is made wider."""
+"""How often a beam that finds nothing is made wider, unless its width was asked for."""
 
 
 def plan_beam(
@@ -31,7 +31,7 @@ def plan_beam(
     """Plan by beam search, with or without hangs: quick and near the shortest plan; it proves nothing.
 
     Layer by layer, of all plans with equally many actions the best are kept: new stances only, and few of one niche. A beam that ends
-    without a plan is made four times as wide, twice.
+    without a plan is made four times as wide, twice, unless its width was asked for.
 
     Args:
         task: What to plan.
@@ -59,7 +59,7 @@ def plan_beam(
     asked: dict[str, Any] = {"width": width, "longest": longest, "polish": polish}
     beam = replace(problem.beam, **{name: value for name, value in asked.items() if value is not None})
     checks = 0
-    for _ in range(1 + WIDENINGS):
+    for _ in range(1 + WIDENINGS if width is None else 1):
         reached = search_layers(problem, beam, seconds=clock.left, tell=tell)
         checks += reached.checks
         if reached.found or reached.interrupted or clock.is_over:

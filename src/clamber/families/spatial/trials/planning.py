@@ -2,11 +2,13 @@
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
 from ....errors import SpecError
-from ....planning.planners import plan_task
+from ....planning.auto import choose
+from ....planning.planners import accepts, plan_task
 from ....planning.problem.plan import Plan
+from ....planning.problem.problems import pose_problem
 from ....planning.result import PlanResult
 from ....trials.dynamics import Conditions, NoPlanError, RunEvents
 from ..execution.carrying import Replan
@@ -27,26 +29,34 @@ def careful(task: SpatialTask, reserve: float = RESERVES[0]) -> SpatialTask:
 def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
     """A plan with more in reserve than the task asks for; where there is none, one as the task asks for.
 
+    More in reserve is looked for by the planner that `auto` tries first alone, and once: that there is none is known only when all have
+    searched as long as they may, which took minutes.
+
     Raises:
         NoPlanError: If there is none of that kind either.
         SpecError: If the start breaks a rule.
     """
+    problem = pose_problem(task).problem
+    quick = choose(problem).planners[0] if asked.planner == "auto" else asked.planner
+    once = {"width": problem.beam.width} if accepts(quick, "width") else {}
     for reserve in RESERVES:
         if reserve <= task.rules.need:
             break
         with suppress(SpecError):  # the start itself has less in reserve
-            result = _search(careful(task, reserve), asked, events, seed)
+            result = _search(careful(task, reserve), quick, asked, events, seed, **once)
             if result.has_plan:
                 return result.plan
         events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
-    result = _search(task, asked, events, seed)
+    result = _search(task, asked.planner, asked, events, seed)
     if result.has_plan:
         return result.plan
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
 
 
-def _search(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> PlanResult:
-    return plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+def _search(
+    task: SpatialTask, planner: str, asked: Conditions, events: RunEvents, seed: int, **options: Any
+) -> PlanResult:
+    return plan_task(task, planner, seed=seed, seconds=asked.plan_seconds, progress=events.search, **options)
 
 
 def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
