@@ -15,7 +15,7 @@ from ..families.spatial.control.laws import BODY_LAWS, USUAL
 from ..families.spatial.statics.checks import STANCE_CHECK
 from ..families.spatial.statics.judging import rules_record
 from ..families.spatial.trials.law_rivals import RIVALS, Rival, installed
-from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, try_law
+from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, time_loop, try_law
 from .control_speed import round_times
 from .rows import NOTHING, Row, Say, keep_quiet
 from .space_rivals import Verdict, connect, highs, hpp, jet_leg, programme
@@ -38,7 +38,7 @@ GOAL: Final = np.array((0.03, 0.0, 0.01, 0.05))
 """By how much: forward, aside, up [m], turn [rad]."""
 SECONDS: Final = 5.0
 EXTRA: Final = f"not installed: {how_to_install('rivals')}"
-LAW_TASKS: Final = ("wall-gripper", "stones-quadruped", "corners-magnet")
+LAW_TASKS: Final = ("wall-gripper", "stones-quadruped", "corners-magnet", "rubble-hexapod")
 """Whose first steps every law of a whole body is tried on."""
 
 
@@ -196,6 +196,7 @@ def law_rows(*, tasks: Sequence[str] = LAW_TASKS, rounds: int = 15, say: Say = k
                 Row(f"{said}: contacts that came off", trial.off, "contacts"),
             ]
         say(f"{name}: ticks")
+        rows += [Row(f"{name}: {what}", *rest) for what, rest in time_loop(task, plan).items()]
         kinds = {law: [law_at(task, moment, law) for moment in moments] for law in BODY_LAWS}
         works = {law: partial(_tick_all, laws) for law, laws in kinds.items()}
         missing = []

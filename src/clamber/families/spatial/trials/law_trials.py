@@ -1,5 +1,6 @@
 """The laws of a whole body on the same first steps: how near each keeps to its aims, and moments of a run that ticks are timed on."""
 
+import time
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -85,6 +86,44 @@ class WatchedBody(TracedBody):
 
     def _note(self, name: str, error: Floats) -> None:
         self.errors[name] = max(self.errors[name], float(np.linalg.norm(error)))
+
+
+class ClockedSim(SpatialSim):
+    """A simulated robot whose physics is timed."""
+
+    def __init__(self, task: SpatialTask) -> None:
+        super().__init__(task.robot, task.world, SpatialFlaws())
+        self.physics = 0.0
+        """Spent in `mj_step` [s]."""
+        self._raw_step, self._step = self._step, self._clocked
+
+    def _clocked(self, model: Any, data: Any, steps: int) -> None:
+        began = time.perf_counter()
+        self._raw_step(model, data, steps)
+        self.physics += time.perf_counter() - began
+
+
+AIMS: Final = {4: ">= 10", 6: ">= 5"}
+"""Limbs -> how many times real time a closed loop is to be, for limbs of three joints."""
+
+
+def time_loop(task: SpatialTask, plan: Plan, rounds: int = 5) -> dict[str, tuple[float, str, str | None]]:
+    """How fast a plan is carried out as `clamber run` does it, its samples included: measure -> median, unit and aim."""
+    times = []
+    for _ in range(rounds + 1):  # the first loads the kernels
+        plant = ClockedSim(task)
+        body = body_of(task, plant, plant.flaws, USUAL)
+        performer = Carrying(body, task, Course.of(task, plan))
+        began = time.perf_counter()
+        report = Sequencer(performer).run()
+        taken = time.perf_counter() - began
+        times.append((report.seconds / taken, plant.physics / taken, taken / plant.physics))
+    real, share, ratio = np.median(times[1:], axis=0).tolist()
+    return {
+        "closed loop, one core": (real, "x real time", AIMS.get(len(task.robot.limb_names))),
+        "share of mj_step in it": (share, "share", None),
+        "closed loop over its mj_step": (ratio, "ratio", "<= 2"),
+    }
 
 
 def copied(arrays: Any) -> Any:
