@@ -13,7 +13,7 @@ from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits
 from clamber.control.whole_body.tree import State, Tree
 from clamber.errors import UnknownNameError
 from clamber.families.spatial.control.laws import BODY_LAWS, body_law
-from clamber.families.spatial.trials.law_trials import first_steps, spatial_task
+from clamber.families.spatial.trials.law_trials import first_steps, spatial_task, time_loop
 from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 from plain_spatial import turn_about
 
@@ -227,6 +227,14 @@ def test_a_robot_without_contacts_is_told_of_and_torques_keep_their_limits(name:
 def test_a_law_that_is_not_there_is_refused_with_those_that_are() -> None:
     with pytest.raises(UnknownNameError, match="operational-space"):
         body_law("operational-spice")
+
+
+def test_a_timed_loop_is_more_than_its_physics() -> None:
+    task = spatial_task("wall-gripper")
+    told = time_loop(task, first_steps(task), rounds=1)
+    real, share, ratio = (measured for measured, _, _ in told.values())
+    assert real > 0.0 and 0.0 < share < 1.0
+    assert ratio == pytest.approx(1.0 / share)
 
 
 @pytest.mark.slow
