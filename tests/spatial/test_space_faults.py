@@ -203,6 +203,15 @@ def test_a_run_whose_fault_begins_after_its_end_is_the_run_without() -> None:
     assert sound.report.seconds == faulty.report.seconds
 
 
+def test_legs_that_stand_with_nearly_all_their_torque_are_not_told_as_faults() -> None:
+    heavy = ["payload.mass=35 kg", "payload.at=['0 m','0 m','0.05 m']", "robot.torque_share=1.0"]
+    task = load_task("stones-quadruped", heavy)
+    assert isinstance(task, SpatialTask)
+    run = run_plan(task, first_steps(task))
+    assert run.done, run.reason
+    assert run.report.torque > 0.95 and run.report.findings == []
+
+
 @pytest.mark.parametrize(("kind", "size", "seen"), [("nan", 0.02, "no number"), ("spikes", 0.4, "jump")])
 def test_an_encoder_that_fails_now_and_then_is_bridged_and_the_run_ends_as_without(
     kind: str, size: float, seen: str

@@ -101,6 +101,8 @@ class ReadingMonitor:
             self._bounds[FASTEST, k], self._bounds[SLOW, k] = channel.fastest, FOLLOWS * channel.fastest
             self._bounds[AGAINST, k] = GIVES_WAY * channel.fastest
             self._bounds[ANSWER, k], self._bounds[FULL, k] = ANSWERING * channel.limit, FULL_COMMAND * channel.limit
+        self.driven: Final = self._memory[DRIVEN]
+        """Ticks of a full command that each reading does not follow, shape (n,)."""
         self._verdicts = np.zeros(n, np.int64)
         self._patience = np.ceil(np.array((UNMOVED, FULLY_DRIVEN, YIELDS)) / period)
         self._smoothing = min(1.0, period / MEANT)

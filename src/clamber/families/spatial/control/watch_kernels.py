@@ -29,6 +29,8 @@ def gather(sensed, torques, touch, does, owner, fresh, room):
         for a in range(3):
             force += sensed.wrenches[limb, a] ** 2
         room.free[k] = does[limb] != HOLDS and force < touch * touch
+        if not room.free[k]:  # what it bears may take all of its torque, and then it stands still
+            room.driven[k] = 0.0
     for a in range(3):
         room.values[2 * n + a] = sensed.gyro[a]
         room.values[2 * n + 3 + a] = sensed.accelerometer[a]

@@ -75,6 +75,7 @@ class Room(NamedTuple):
     speeds: Floats
     commands: Floats
     free: npt.NDArray[np.bool_]
+    driven: Floats
     """As those of a `ReadingMonitor`."""
     before: Floats
     """Readings at the look before, shape (sensors,)."""
@@ -130,6 +131,7 @@ class SensorWatch:
             monitor.speeds,
             monitor.commands,
             monitor.free,
+            monitor.driven,
             np.zeros(sensors),
             np.zeros(sensors, np.int64),
             np.zeros(limbs, np.int32),
