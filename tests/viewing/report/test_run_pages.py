@@ -105,7 +105,7 @@ def test_reports_of_runs_open_in_a_browser(climb: Path, walk: Path, visit: Calla
 def test_the_climb_plays_inside_its_report(climb: Path, visit: Callable[..., Any]) -> None:
     page = visit(climb / "index.html", "climb-player")
     page.get_by_text("Play it here").click()
-    page.locator("iframe").scroll_into_view_if_needed()
+    page.locator("iframe").scroll_into_view_if_needed(timeout=75_000)
     player = page.frame_locator("iframe")
     player.locator("canvas[data-engine]").wait_for(timeout=75_000)
     player.locator("#clamber li").nth(2).dispatch_event("click")  # it plays by itself, and the list goes along
