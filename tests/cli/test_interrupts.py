@@ -32,10 +32,10 @@ MOMENTS = 10
 """Of each command, drawn between `PYTHON` and `LATEST`, with the command as the seed."""
 LATEST = 12.0
 LONG = (
-    "plan h --planner genetic --evaluations 1000000",
+    "plan gap --set rules.max_hangs=0 --planner genetic --evaluations 100000000 --no-openings",
     "plan circle --planner exact --stances 20000000",
     "plan circle --planner hybrid --stances 20000000",
-    "plan circle --planner mcts",
+    "plan circle --planner mcts --checks 1000000000",
     "plan h --to-run",
     "shorten examples/across/plan.json",
     "learn circle",
