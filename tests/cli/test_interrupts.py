@@ -37,7 +37,7 @@ LONG = (
     "plan circle --planner hybrid --stances 20000000",
     "plan circle --planner mcts --checks 1000000000",
     "plan h --to-run",
-    "shorten examples/across/plan.json",
+    "shorten examples/across/plan.json --width 20000",
     "learn circle",
     "run circle",
     "run ladder-hand",
