@@ -29,7 +29,7 @@ def chance_of(flaws: SpatialFlaws) -> np.random.Generator:
     return np.random.default_rng([flaws.seed or 0, 2])
 
 
-class Noise:
+class NoiseRows:
     """Noise of a sensor, a row a reading.
 
     Args:
@@ -144,8 +144,8 @@ class Sensing:
         chance = chance_of(flaws)
         bias = drawn_biases(flaws, chance)
         known = flaws.seed is not None
-        self._noise = Noise(chance, self._spread * known, bias * known)
-        self._force_noise = Noise(np.random.default_rng(flaws.seed or 0), self._force_spread)
+        self._noise = NoiseRows(chance, self._spread * known, bias * known)
+        self._force_noise = NoiseRows(np.random.default_rng(flaws.seed or 0), self._force_spread)
         self._tick = 0
 
     def read(self, tick: int) -> SpatialSensed:
