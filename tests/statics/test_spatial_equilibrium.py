@@ -1,6 +1,7 @@
 """Forces of stances in space against HiGHS, which gets the same stance by other words (`plain_spatial`)."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact
 from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK
 from clamber.families.spatial.statics.judging import Statics, rules_record
+from clamber.tasks import load_task
 from clamber.types import Records
-from plain_spatial import PlainStance, plain_margins, solve_forces
+from plain_spatial import PlainStance, plain_margins, solve_forces, turn_about
 from spatial_machines import arms, random_stances, spider
 
 
@@ -90,6 +92,27 @@ def test_no_verdict_differs_from_that_of_another_solver(machine: str, n: int) ->
         if abs(found - 0.05) > 1e-7:
             assert (reasons[i] < 0) == (found >= 0.05)
     assert 0.02 * n < feasible < 0.98 * n
+
+
+def test_no_verdict_differs_where_a_robot_stands_in_its_own_plane() -> None:
+    """Forces in the plane and across it hang together by rounding alone there, which is no number to divide by."""
+    robot: Any = load_task("truss-inchworm").robot
+    chains, kinds, n = robot.chains, robot.contacts, 1000
+    statics = Statics(chains, kinds)
+    rng = np.random.default_rng(1)
+    bodies = statics.bodies(n)
+    places, normals = np.zeros((n, 2, 3)), np.tile((0.0, 0.0, 1.0), (n, 2, 1))
+    places[:, :, 0] = rng.uniform(0.25, 0.5, (n, 2)) * (1.0, -1.0)
+    bodies["place"][:, 2] = rng.uniform(0.2, 0.35, n)
+    for i, roll in enumerate(np.radians(15.0) * rng.integers(-1, 2, n)):
+        bodies["rotation"][i] = turn_about(np.array((1.0, 0.0, 0.0)), roll).reshape(-1)
+    contacts = statics.contacts(places, normals)
+    judged, _ = statics.judge(bodies, contacts)
+    reached = np.flatnonzero(judged["judged"])
+    assert len(reached) > 0.4 * n
+    for i in reached:
+        found = solve_forces(chains, list(kinds), plain(bodies[i], contacts[i], judged[i]))
+        assert judged["s"][i] == pytest.approx(found, abs=1e-6)
 
 
 @pytest.mark.parametrize("machine", MACHINES)

@@ -19,7 +19,10 @@ SINGULAR = 1e-9
 UNBALANCED = 1e-7
 """Of an equation that no unknown is left in [1], in parts of the weight."""
 OPTIMAL = 1e-10
-SMALLEST_PIVOT = 1e-10
+SMALLEST_PIVOT = 1e-8
+"""Smaller ones are rounding: postures are solved to parts in a million, and a basis turned on such a pivot is next to singular."""
+FEASIBLE = 1e-9
+"""How far below zero a multiplier of the dual may fall, so that a larger pivot can be had."""
 
 
 @kernel
@@ -68,6 +71,31 @@ def eliminate(work, n):
             free[j] = d
             d += 1
     return rank
+
+
+@kernel
+def leaving(work, size, bland):
+    """Place of the basis that the entering row takes, -1 if none: of those that reach zero first, within `FEASIBLE`, the largest pivot.
+
+    The ratio test of Harris (1973). With `bland` it is the first to reach zero, of several the one with the lowest number.
+    """
+    entering, dual, basis = work.entering, work.dual, work.basis
+    most, leave = math.inf, -1
+    if bland:
+        for i in range(size):
+            if entering[i] > SMALLEST_PIVOT:
+                ratio = dual[i] / entering[i]
+                if ratio < most or (ratio == most and basis[i] < basis[leave]):
+                    most, leave = ratio, i
+        return leave
+    for i in range(size):
+        if entering[i] > SMALLEST_PIVOT:
+            most = min(most, (dual[i] + FEASIBLE) / entering[i])
+    largest = 0.0
+    for i in range(size):
+        if entering[i] > max(SMALLEST_PIVOT, largest) and dual[i] <= most * entering[i]:
+            largest, leave = entering[i], i
+    return leave
 
 
 @kernel
@@ -162,18 +190,10 @@ def maximise(work, m, d, need):
             gap = BOX - side * price[k]
             for i in range(size):
                 entering[i] = side * inverse[k, i]
-        ratio, leave = math.inf, -1
-        for i in range(size):
-            if entering[i] > SMALLEST_PIVOT:
-                t = dual[i] / entering[i]
-                if still > PATIENT:
-                    if t < ratio or (t == ratio and basis[i] < basis[leave]):
-                        ratio, leave = t, i
-                elif t < ratio - 1e-13 or (t < ratio + 1e-13 and entering[i] > entering[leave]):
-                    ratio, leave = t, i
+        leave = leaving(work, size, still > PATIENT)
         if leave < 0:  # only by rounding: the box bounds the dual
             return lower, upper, pivot
-        ratio = max(ratio, 0.0)
+        ratio = dual[leave] / entering[leave]
         still = still + 1 if ratio * -gap < 1e-14 else 0
         scale = 1.0 / entering[leave]
         for j in range(size):
