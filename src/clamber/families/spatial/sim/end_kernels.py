@@ -45,6 +45,8 @@ END = np.dtype(
         ("mu", "f8"),
         ("held", "f8"),  # pull of end effector and hold [N]
         ("normal", "f8", (3,)),  # out of the surface, world frame
+        ("first", "f8", (3,)),  # tangents of the contact's frame at the last reading, world frame
+        ("second", "f8", (3,)),
         ("over", "i8"),  # ticks in a row for which it bore too much
     ],
     align=True,
@@ -118,7 +120,6 @@ def feel_ends(ends, axes, sites, readings, shutting, wrenches, local, given):
         local: Filled: the same in the end effector's frame.
         given: Filled: what gives way (`WORDS`), shape (limbs,); `HOLDS` of those that are not attached.
     """
-    normal, first, second = np.empty(3), np.empty(3), np.empty(3)
     some = False
     for limb in range(ends.shape[0]):
         end = ends[limb]
@@ -133,9 +134,8 @@ def feel_ends(ends, axes, sites, readings, shutting, wrenches, local, given):
         given[limb] = HOLDS
         if end.hold < 0:
             continue
+        normal, first, second = end.normal, end.first, end.second
         along = 0
-        for i in range(3):
-            normal[i] = end.normal[i]
         if abs(normal[0] * turn[0] + normal[1] * turn[3] + normal[2] * turn[6]) > 0.9:
             along = 1
         for i in range(3):
@@ -200,8 +200,7 @@ def nearest_holds(tips, sites, ends, places, normals, radii):
 @kernel
 def mean_motion(read, seconds):
     """Mean angular velocity [rad/s] and specific force [m/s^2] of a base over the time since the reading before, base frame."""
-    turn, velocity, mean = read.turn, read.velocity, read.mean
-    now = np.empty((3, 3))
+    turn, now, velocity, mean = read.turn, read.turned, read.velocity, read.mean
     write_axes(read.qpos[3:7], now)
     for a in range(3):
         b, c = (a + 1) % 3, (a + 2) % 3

@@ -73,6 +73,8 @@ class Read(NamedTuple):
     """World frame [m/s^2], shape (3,)."""
     turn: Floats
     """Axes of the base at the reading before, as columns, shape (3, 3)."""
+    turned: Floats
+    """Scratch: the same at this reading."""
     velocity: Floats
     """Of its origin then [m/s], shape (3,)."""
     mean: Floats
@@ -126,7 +128,7 @@ class Sensing:
         """What they said last."""
         depth, n, limbs = flaws.late + 1, len(given), len(tips[1])
         self._read = Read(
-            data.qpos, data.qvel, *places, np.zeros(n), gravity, np.eye(3), np.zeros(3), np.zeros(6), tips[0], given, *tips[1:],
+            data.qpos, data.qvel, *places, np.zeros(n), gravity, np.eye(3), np.eye(3), np.zeros(3), np.zeros(6), tips[0], given, *tips[1:],
             np.zeros((depth, 2, n)), np.zeros((depth, 6)), np.zeros((depth, limbs, 6)),
         )  # fmt: skip
         spread = flaws.force_noise * chains.total_mass * GRAVITY
