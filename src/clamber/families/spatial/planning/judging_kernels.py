@@ -7,13 +7,16 @@ import numpy as np
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
-from ..statics.records import BODY, CLEAR, CONTACT, JOINTS, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
+from ..statics.checks import LIMB_BODY, LIMB_LIMB
+from ..statics.collision_kernels import limb_body_gap, pair_gap
+from ..statics.records import BODY, CLEAR, CONTACT, JOINTS, JUDGED, LIMBS, PATH_POINTS, ROBOT, RULES, SEEDS, WORK
 from ..statics.stance_kernels import (
     aim_limb,
     judge,
     judge_forces,
     judge_postures,
     judge_shape,
+    limb_in_world,
     place_in_world,
     solve_limb,
     swing_reach,
@@ -136,33 +139,40 @@ def know_postures(p, s, out):
 
 
 @kernel
-def solids_gap(p, s, judged):
-    """Least distance of links and of the base's corners from solids, less the clearance asked for [m].
+def limb_solids_gap(robot, solids, i, origin, gap):
+    """Least distance of a limb's links from solids, if less than `gap` [m]; `origin` has its joints, world frame.
 
     Of each link its ends and `BETWEEN` places in between are looked at; of the last one, which touches a solid with its tip, what is more
     than `CLEAR` radii from that, as the plant's colliders are; first links lie beside the base.
     """
+    for k in range(1, robot.n_joints[i]):
+        at, to = origin[k], origin[k + 1]
+        x, y, z = to[0] - at[0], to[1] - at[1], to[2] - at[2]
+        near = terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k]
+        gap = min(gap, near)
+        length = math.sqrt(x * x + y * y + z * z)
+        part, places = 1.0, BETWEEN + 1
+        if k + 1 == robot.n_joints[i]:
+            part, places = max(0.0, 1.0 - CLEAR * robot.radius[i, k] / max(length, TOLERANCE)), BETWEEN
+        if near - part * length > gap:
+            continue
+        for step in range(1, BETWEEN + 1):
+            share = part * step / places
+            away = terrain_distance(solids, at[0] + share * x, at[1] + share * y, at[2] + share * z)
+            gap = min(gap, away - robot.radius[i, k])
+    return gap
+
+
+@kernel
+def solids_gap(p, s, judged):
+    """Least distance of links and of the base's corners from solids, less the clearance asked for [m]."""
     if p.n_solids == 0:
         return UNLIMITED
     robot = robot_of(p)
     solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
     gap = UNLIMITED
     for i in range(p.n_limbs):
-        for k in range(1, robot.n_joints[i]):
-            at, to = judged.origin[i, k], judged.origin[i, k + 1]
-            x, y, z = to[0] - at[0], to[1] - at[1], to[2] - at[2]
-            near = terrain_distance(solids, at[0], at[1], at[2]) - robot.radius[i, k]
-            gap = min(gap, near)
-            length = math.sqrt(x * x + y * y + z * z)
-            part, places = 1.0, BETWEEN + 1
-            if k + 1 == robot.n_joints[i]:
-                part, places = max(0.0, 1.0 - CLEAR * robot.radius[i, k] / max(length, TOLERANCE)), BETWEEN
-            if near - part * length > gap:
-                continue
-            for step in range(1, BETWEEN + 1):
-                share = part * step / places
-                away = terrain_distance(solids, at[0] + share * x, at[1] + share * y, at[2] + share * z)
-                gap = min(gap, away - robot.radius[i, k])
+        gap = limb_solids_gap(robot, solids, i, judged.origin[i], gap)
     for corner in range(8):
         x = robot.base_half[0] * (1 - 2 * (corner & 1))
         y = robot.base_half[1] * (1 - (corner & 2))
@@ -305,9 +315,9 @@ def judge_taken(p, before, s, limb, margins):
             broken = CLEARANCE
     if broken >= 0:
         return broken
-    margins[SWING] = swing_margin(p, before, limb, s.hold[limb])
-    if p.hard >> SWING & 1 and margins[SWING] < -TOLERANCE:
-        return SWING
+    broken = judge_swing(p, before, limb, s.hold[limb], margins)
+    if broken >= 0:
+        return broken
     broken = judge_lifted(p, before, limb)
     if broken >= 0:
         return broken
@@ -324,14 +334,33 @@ def judge_taken(p, before, s, limb, margins):
     if broken < 0:
         keep_judged(p, s, out, True)
         for k in range(CLEARANCE):
-            margins[k] = out.margins[k]
+            lessen(margins, k, out.margins[k])
     return broken
 
 
+@inlined
+def lessen(margins, check, margin):
+    """Take a margin where it is less than that of its check, or where there is none yet."""
+    if not margins[check] <= margin:
+        margins[check] = margin
+
+
 @kernel
-def swing_margin(p, s, limb, hold):
-    """Error that is allowed on the lifted path of a limb from its hold to another, less the largest that postures leave [m]."""
-    holds = holds_of(p)
+def judge_swing(p, s, limb, hold, margins):
+    """Judge the lifted path of a limb from its hold to another, while the others stand as `origin` of the scratch has them.
+
+    Args:
+        p: Parameters.
+        s: The stance that the limb leaves.
+        limb: Which swings.
+        hold: Where it goes.
+        margins: `swing` is written: error that is allowed less the largest that postures leave [m]; `limb_limb`, `limb_body` and
+            `clearance` become what they are on the path, if that is less.
+
+    Returns:
+        The first violated hard check, or -1.
+    """
+    robot, holds = robot_of(p), holds_of(p)
     swing = carray(pointer(p.work_contacts_at), LIMBS + 2, CONTACT)[LIMBS:]
     for end in range(2):
         which = holds[hold if end else s.hold[limb]]
@@ -343,4 +372,25 @@ def swing_margin(p, s, limb, hold):
         judged.posture[limb, k] = s.q[limb, k]
     body = carray(pointer(p.work_body_at), 1, BODY)[0]
     work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    return swing_reach(robot_of(p), body, limb, swing, judged, p.lift, work)
+    margins[SWING] = swing_reach(robot, body, limb, swing, judged, p.lift, work)
+    if margins[SWING] < -TOLERANCE:
+        return SWING if p.hard >> SWING & 1 else -1
+    rules = carray(pointer(p.rules_at), 1, RULES)[0]
+    between, beside, away = UNLIMITED, UNLIMITED, UNLIMITED
+    for point in range(PATH_POINTS):
+        origin = work.way[point]
+        for other in range(p.n_limbs):
+            if other != limb:
+                between = min(between, pair_gap(robot, limb, other, origin, work.origin[other]))
+        beside = limb_body_gap(robot, limb, origin, beside)
+        if p.n_solids > 0:
+            solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
+            limb_in_world(robot, body, limb, origin, judged.origin[limb])
+            away = limb_solids_gap(robot, solids, limb, judged.origin[limb], away)
+    lessen(margins, LIMB_LIMB, between - rules.limb_room)
+    lessen(margins, LIMB_BODY, beside - rules.limb_room)
+    lessen(margins, CLEARANCE, away - p.clearance)
+    for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
+        if p.hard >> check & 1 and margins[check] < -TOLERANCE:
+            return check
+    return -1

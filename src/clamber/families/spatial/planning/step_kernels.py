@@ -8,13 +8,13 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
-from ....planning.problem.check import TOLERANCE, UNLIMITED
+from ....planning.problem.check import UNLIMITED
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, pack_code, unpack
 from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
-from .judging_kernels import SCRATCH, copy, judge_stance, judge_taken, robot_of, scratch_of, swing_margin
+from .judging_kernels import SCRATCH, copy, judge_stance, judge_swing, judge_taken, robot_of, scratch_of
 from .poses_kernels import away_from, goals_of, holds_of, meets, place_body
 from .records import AXES, HEIGHT, PITCH, ROLL, YAW
 
@@ -101,10 +101,10 @@ def take_hold(p, before, limb, after, margins):
     after.hold[limb] = hold
     merge_margins(margins, least)
     if broken < 0:
-        margins[SWING] = swing_margin(p, before, limb, hold)
+        broken = judge_swing(p, before, limb, hold, margins)
+        merge_margins(margins, least)
         least[SWING] = margins[SWING]
-        if p.hard >> SWING & 1 and margins[SWING] < -TOLERANCE:
-            return SWING
+    if broken < 0:
         broken = judge_stance(p, before, after, limb, limb, margins)
         merge_margins(margins, least)
     if broken < 0:

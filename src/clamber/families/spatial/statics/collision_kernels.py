@@ -68,31 +68,47 @@ def box_gap(a, b, half):
 
 
 @kernel
+def pair_gap(robot, i, j, p, q):
+    """Smallest gap between links of the limbs i and j, whose joints are at p and q [m]; first links lie side by side and are left out."""
+    gap = UNLIMITED
+    for k in range(1, robot.n_joints[i]):
+        for h in range(1, robot.n_joints[j]):
+            between = segment_gap(p[k], p[k + 1], q[h], q[h + 1])
+            gap = min(gap, between - robot.radius[i, k] - robot.radius[j, h])
+    return gap
+
+
+@kernel
 def limbs_gap(robot, work):
-    """Smallest gap between links of different limbs [m]; first links, which lie side by side at the base, are left out."""
+    """Smallest gap between links of different limbs [m]."""
     gap = UNLIMITED
     for i in range(robot.n_limbs):
         for j in range(i):
-            for k in range(1, robot.n_joints[i]):
-                for h in range(1, robot.n_joints[j]):
-                    p, q = work.origin[i], work.origin[j]
-                    between = segment_gap(p[k], p[k + 1], q[h], q[h + 1])
-                    gap = min(gap, between - robot.radius[i, k] - robot.radius[j, h])
+            gap = min(gap, pair_gap(robot, i, j, work.origin[i], work.origin[j]))
+    return gap
+
+
+@kernel
+def limb_body_gap(robot, i, p, gap):
+    """Smallest gap between the base's box and the links of limb i, whose joints are at p, if less than `gap` [m].
+
+    The first two links, which are fixed to the base and beside it, are left out.
+    """
+    half = robot.base_half
+    for k in range(2, robot.n_joints[i]):
+        a, b = p[k], p[k + 1]
+        if gap < UNLIMITED:  # two spheres first: most links are far away
+            reach = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+            if box_distance(a, b, 0.0, half) - reach - robot.radius[i, k] > gap:
+                continue
+        gap = min(gap, box_gap(a, b, half) - robot.radius[i, k])
     return gap
 
 
 @kernel
 def body_gap(robot, work):
-    """Smallest gap between the base's box and links but the first two, which are fixed to it and beside it [m]."""
+    """Smallest gap between the base's box and links [m]."""
     gap = UNLIMITED
-    half = robot.base_half
     for i in range(robot.n_limbs):
-        for k in range(2, robot.n_joints[i]):
-            p = work.origin[i]
-            a, b = p[k], p[k + 1]
-            if gap < UNLIMITED:  # two spheres first: most links are far away
-                reach = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
-                if box_distance(a, b, 0.0, half) - reach - robot.radius[i, k] > gap:
-                    continue
-            gap = min(gap, box_gap(a, b, half) - robot.radius[i, k])
+        gap = limb_body_gap(robot, i, work.origin[i], gap)
     return gap

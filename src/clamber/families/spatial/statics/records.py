@@ -138,6 +138,8 @@ JUDGED = np.dtype(
 )
 """What came of judging a stance."""
 
+PATH_POINTS = 7
+"""Of a lifted path that are solved."""
 WORK = np.dtype(
     [
         ("posture", "f8", (LIMBS, JOINTS)),
@@ -145,6 +147,7 @@ WORK = np.dtype(
         ("normal", "f8", (LIMBS, 3)),  # out of the surface, base frame
         ("turn", "f8", (LIMBS, JOINTS, 9)),  # T_base_link, row by row
         ("origin", "f8", (LIMBS, JOINTS + 1, 3)),  # of every frame and the tip, base frame
+        ("way", "f8", (PATH_POINTS, JOINTS + 1, 3)),  # `origin` of a limb at the points of its lifted path
         ("axis", "f8", (LIMBS, JOINTS, 3)),
         ("jacobian", "f8", (LIMBS, JOINTS, 3)),  # motion of the tip per joint
         ("tip_turn", "f8", (LIMBS, 9)),  # T_base_end, row by row

@@ -10,15 +10,13 @@ from .collision_kernels import body_gap, limbs_gap
 from .equilibrium_kernels import balance_forces, contact_frame, fill_levers
 from .gravity_kernels import base_weight, limb_weight
 from .kinematics_kernels import limb_frames, reach_point, tip_jacobian
-from .records import CHECKS_OF_STANCE
+from .records import CHECKS_OF_STANCE, PATH_POINTS
 from .seeds_kernels import seed_beside, seed_index, take_seed
 
 NEAR = 1e-6
 """Where searches of postures end, per size of the robot."""
 OTHER_SEEDS = 6
 """Seeds of the cells beside that a limb that has to be aligned is tried from where its own fails."""
-PATH_POINTS = 7
-"""Of a lifted path that are solved."""
 PATH_JUMP = 1.0
 """Largest change of a joint from one of them to the next [rad] or [m]."""
 PATH_NEAR = 1e-4
@@ -77,15 +75,20 @@ def tilt_of(limb, work):
 
 
 @kernel
+def limb_in_world(robot, body, limb, origin, to):
+    """A limb's joints and tip in the world frame, from the base frame."""
+    r = body.rotation
+    for k in range(robot.n_joints[limb] + 1):
+        p = origin[k]
+        for a in range(3):
+            to[k, a] = body.place[a] + r[3 * a] * p[0] + r[3 * a + 1] * p[1] + r[3 * a + 2] * p[2]
+
+
+@kernel
 def place_in_world(robot, body, work, out):
     """Origins of all joints and tips in the world frame (`origin` of `out`), after the limbs were solved."""
-    r = body.rotation
     for limb in range(robot.n_limbs):
-        for k in range(robot.n_joints[limb] + 1):
-            p = work.origin[limb, k]
-            to = out.origin[limb, k]
-            for a in range(3):
-                to[a] = body.place[a] + r[3 * a] * p[0] + r[3 * a + 1] * p[1] + r[3 * a + 2] * p[2]
+        limb_in_world(robot, body, limb, work.origin[limb], out.origin[limb])
 
 
 @inlined
@@ -283,7 +286,7 @@ def swing_reach(robot, body, limb, swing, before, lift, work):
         swing: Two records of `CONTACT`: where it is and where it goes.
         before: Record of `JUDGED`, or any with such a `posture`: the limb's at the first contact.
         lift: Height of the path [m].
-        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved.
+        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved, and `way` has the joints at all of them.
 
     Returns:
         Distance that counts as reached less the largest error of the points [m]; where a joint would have to jump, what is missing of
@@ -298,6 +301,9 @@ def swing_reach(robot, body, limb, swing, before, lift, work):
         for k in range(n):
             last[k] = work.posture[limb, k]
         error = follow_path(robot, body, limb, swing, lift, point / PATH_POINTS, work)
+        for k in range(n + 1):
+            for a in range(3):
+                work.way[point - 1, k, a] = work.origin[limb, k, a]
         room = min(room, PATH_REACHED * robot.size - error)
         for k in range(n):
             room = min(room, PATH_JUMP - abs(work.posture[limb, k] - last[k]))

@@ -1,0 +1,166 @@
+"""Limbs on their way from hold to hold, against a plain calculation: the path, postures by least squares, gaps by dense points."""
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+import plain_spatial as plain
+from clamber.families.spatial.planning.problem import SpatialProblem
+from clamber.families.spatial.robot.chains import Chains
+from clamber.families.spatial.statics.records import CLEAR, PATH_POINTS
+from clamber.planning.beam import plan_beam
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.verdict import check_plan
+from clamber.tasks import load_task
+from clamber.types import Floats
+
+TASKS = {
+    "stones-quadruped": "goal={ along_min = '0.5 m' }",
+    "wall-gripper": "goal={ along_min = '0.3 m' }",
+    "truss-inchworm": "goal={ along_min = '0.6 m' }",
+}
+
+
+def eased(u: float) -> float:
+    u = min(1.0, max(0.0, u))
+    return u**3 * (10.0 - 15.0 * u + 6.0 * u * u)
+
+
+def followed(chains: Chains, limb: int, posture: Floats, base: Floats, place: Floats, normal: Floats | None) -> Floats:
+    """Posture near another one that has the tip at a place, and its z against a normal where there is one."""
+    n = int(chains.n_joints[limb])
+
+    def error(q: Floats) -> Floats:
+        end = plain.frames(chains, limb, np.append(q, posture[n:]), base)[-1]
+        off: Floats = end[:3, 3] - place
+        return off if normal is None else np.concatenate((off, 0.1 * (end[:3, 2] + normal)))
+
+    found = least_squares(error, posture[:n], xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    return np.append(found.x, posture[n:])
+
+
+NEAR = 1e-4
+"""Postures on the way are solved to this part of the robot's size."""
+
+
+@cache
+def planned(name: str) -> tuple[Any, Plan]:
+    task = load_task(name, [TASKS[name]])
+    found = plan_beam(task, width=30, threads=1)
+    assert found.has_plan, found.reason
+    return task, found.plan
+
+
+@cache
+def swings(name: str) -> list[Any]:
+    """Of every grab of a plan: its margins, base, limb, the joints of the limb on its way, and those of the other limbs."""
+    task, plan = planned(name)
+    verdict, found = check_plan(task, plan), []
+    assert verdict.ok
+    problem = SpatialProblem(task, 1, exact=True)
+    stances = problem.replay(plan.codes(task)).stances
+    chains, world = task.robot.chains, task.world
+    aligned = problem.params.array("robot")["aligned"][0]  # type: ignore[call-overload]
+    for action, step, before, after in zip(plan.actions, verdict.per_step, stances[:-1], stances[1:], strict=True):
+        if action.kind != "grab":
+            continue
+        limb = chains.limb_names.index(action.limb)
+        base = np.eye(4)
+        base[:3, :3], base[:3, 3] = before["turn"].reshape(3, 3), before["place"]
+        ends = [int(stance["hold"][limb]) for stance in (before, after)]
+        (start, end), (first, last) = world.places[ends], world.normals[ends]
+        posture = before["q"][limb].copy()
+        way = [posture]
+        for u in np.arange(1, PATH_POINTS + 1) / PATH_POINTS:
+            lifted = task.rules.lift * eased(min(u, 1.0 - u) / 0.4) * 0.5 * (first + last)
+            normal = first + eased(u) * (last - first)
+            normal = normal / np.linalg.norm(normal) if aligned[limb] else None
+            place = start + eased((u - 0.15) / 0.7) * (end - start) + lifted
+            posture = followed(chains, limb, posture, base, place, normal)
+            way.append(posture)
+        mine = [joints(chains, limb, q, base) for q in [*way, after["q"][limb]]]
+        others = {
+            other: joints(chains, other, before["q"][other], base)
+            for other in range(len(chains.limb_names))
+            if other != limb
+        }
+        found.append((step.margins, base, limb, mine, others))
+    return found
+
+
+def joints(chains: Chains, limb: int, posture: Floats, base: Floats) -> Floats:
+    """Places of a limb's joints and tip, world frame [m]."""
+    return np.array([frame[:3, 3] for frame in plain.frames(chains, limb, posture, base)])
+
+
+def links(chains: Chains, limb: int, at: Floats) -> Any:
+    """Ends and radius of each link but the first."""
+    return [(at[k : k + 2], chains.radius[limb, k]) for k in range(1, int(chains.n_joints[limb]))]
+
+
+def nearest(chains: Chains, limb: int, at: Floats, others: dict[int, Floats]) -> float:
+    """Smallest gap between the links of a limb and those of others [m]."""
+    return min(
+        float(plain.gap_of_segments(p, q) - a - b)
+        for other, there in others.items()
+        for p, a in links(chains, limb, at)
+        for q, b in links(chains, other, there)
+    )
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_gaps_between_limbs_are_the_least_on_the_way(name: str) -> None:
+    chains = planned(name)[0].robot.chains
+    for margins, _, limb, mine, others in swings(name):
+        standing = [
+            nearest(chains, i, others[i], {j: at for j, at in others.items() if j < i})
+            for i in others
+            if i > min(others)
+        ]
+        least = min(standing + [nearest(chains, limb, at, others) for at in mine])
+        assert margins["limb_limb"] == pytest.approx(least, abs=NEAR)
+
+
+def test_limbs_come_nearest_to_each_other_on_the_way() -> None:
+    chains = planned("stones-quadruped")[0].robot.chains
+    gaps = [
+        [nearest(chains, limb, at, others) for at in mine] for _, _, limb, mine, others in swings("stones-quadruped")
+    ]
+    assert any(min(way[1:-2]) < min(way[0], way[-1]) - 0.01 for way in gaps)
+
+
+@pytest.mark.parametrize("name", TASKS)
+def test_a_limb_is_as_far_from_the_base_as_it_comes_on_the_way(name: str) -> None:
+    chains = planned(name)[0].robot.chains
+    for margins, base, limb, mine, others in swings(name):
+        inverse = np.linalg.inv(base)
+        least = np.inf
+        for which, at in [(limb, at) for at in mine] + list(others.items()):
+            own = at @ inverse[:3, :3].T + inverse[:3, 3]
+            for ends, radius in links(chains, which, own)[1:]:
+                points = ends[0] + np.linspace(0.0, 1.0, 501)[:, None] * (ends[1] - ends[0])
+                least = min(least, float(plain.depth_in_box(points, chains.base_half).min()) - radius)
+        assert margins["limb_body"] == pytest.approx(least, abs=NEAR)
+
+
+def test_a_limb_is_as_far_from_a_bar_as_it_comes_on_the_way() -> None:
+    """Clamber looks at the ends of links and at some places between them: never nearer than links come, and little farther."""
+    task, _ = planned("truss-inchworm")
+    chains = task.robot.chains
+    bars = [
+        (np.array(solid.at), np.array(solid.to), solid.radius) for solid in task.world.solids if solid.kind == "bar"
+    ]
+    assert bars
+    for margins, _, limb, mine, others in swings("truss-inchworm"):
+        least, longest = np.inf, 0.0
+        for which, at in [(limb, at) for at in mine] + list(others.items()):
+            for k, (ends, radius) in enumerate(links(chains, which, at), 1):
+                length = float(np.linalg.norm(ends[1] - ends[0]))
+                part = 1.0 if k + 1 < chains.n_joints[which] else max(0.0, 1.0 - CLEAR * radius / length)
+                longest = max(longest, part * length)
+                piece = np.array((ends[0], ends[0] + part * (ends[1] - ends[0])))
+                least = min(least, *(plain.gap_of_segments(piece, np.array((a, b))) - r - radius for a, b, r in bars))
+        assert least - NEAR <= margins["clearance"] <= least + longest / 6.0
