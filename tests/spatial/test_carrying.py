@@ -26,6 +26,7 @@ from clamber.families.spatial.robot.bodies import rotation
 from clamber.families.spatial.sim.spatial_flaws import Deviations, SpatialFlaws
 from clamber.families.spatial.sim.spatial_model import LINKS
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
+from clamber.families.spatial.statics.judging import lift_between
 from clamber.families.spatial.trials.law_trials import first_steps as short_plan
 from clamber.families.spatial.trials.law_trials import try_law
 from clamber.families.spatial.trials.planning import RESERVES, careful
@@ -64,7 +65,7 @@ def differences(path: BodyPath | TipPath, time: float, step: float = 1e-5) -> tu
 
 def test_velocities_and_accelerations_of_paths_are_those_of_their_places() -> None:
     normals = np.array(((0.0, 0.0, 1.0), (0.0, 0.6, 0.8)))
-    tip = TipPath(np.zeros(3), np.array((0.3, 0.1, 0.05)), normals, 0.06, 1.3)
+    tip = TipPath(np.zeros(3), np.array((0.3, 0.1, 0.05)), normals, np.array((0.0, 0.018, 0.054)), 1.3)
     body = BodyPath.between(
         np.zeros(3), np.eye(3), np.array((0.1, 0.0, 0.2)), rotation_of(np.array((0.1, 0.3, 0.2))), 2.0
     )
@@ -209,8 +210,9 @@ def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -
     limits, mine = body.law.limits, slice(*body.joints_of(limb))
     normals = task.world.normals[[int(motion.before.holds[limb]), motion.hold]]
     start, end = body.tips[limb].copy(), task.world.places[motion.hold]
-    seconds = joint_seconds(body, limb, TipPath(start, end, normals, body.lift, 1.0), motion.after.joints)
-    path = TipPath(start, end, normals, body.lift, seconds)
+    up = lift_between(np.stack((start, end)), normals, body.lift)
+    seconds = joint_seconds(body, limb, TipPath(start, end, normals, up, 1.0), motion.after.joints)
+    path = TipPath(start, end, normals, up, seconds)
     times = np.linspace(0.0, seconds, 400)
     points = np.array([path.at(time)[0] for time in times])
     joints = body.joints_along(limb, points, motion.after.joints)

@@ -1,5 +1,6 @@
 """Limbs on their way from hold to hold, against a plain calculation: the path, postures by least squares, gaps by dense points."""
 
+import math
 from functools import cache
 from typing import Any
 
@@ -8,8 +9,10 @@ import pytest
 from scipy.optimize import least_squares
 
 import plain_spatial as plain
+from clamber.families.spatial.execution.references import TipPath
 from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.robot.chains import Chains
+from clamber.families.spatial.statics.judging import lift_between
 from clamber.families.spatial.statics.records import CLEAR, PATH_POINTS
 from clamber.planning.beam import plan_beam
 from clamber.planning.problem.plan import Plan
@@ -27,6 +30,14 @@ TASKS = {
 def eased(u: float) -> float:
     u = min(1.0, max(0.0, u))
     return u**3 * (10.0 - 15.0 * u + 6.0 * u * u)
+
+
+def raised(way: Floats, first: Floats, last: Floats, lift: float) -> Floats:
+    """How far a path is lifted, over an edge where each of its ends lies behind the other's surface."""
+    behind, before, turned = float(-first @ way), float(last @ way), 1.0 + float(first @ last)
+    over = max(behind, before) / turned if behind > 0.0 and before > 0.0 and turned > 0.1 else 0.0
+    up: Floats = 0.5 * (lift + over) * (first + last)
+    return up
 
 
 def followed(chains: Chains, limb: int, posture: Floats, base: Floats, place: Floats, normal: Floats | None) -> Floats:
@@ -75,7 +86,7 @@ def swings(name: str) -> list[Any]:
         posture = before["q"][limb].copy()
         way = [posture]
         for u in np.arange(1, PATH_POINTS + 1) / PATH_POINTS:
-            lifted = task.rules.lift * eased(min(u, 1.0 - u) / 0.4) * 0.5 * (first + last)
+            lifted = eased(min(u, 1.0 - u) / 0.4) * raised(end - start, first, last, task.rules.lift)
             normal = first + eased(u) * (last - first)
             normal = normal / np.linalg.norm(normal) if aligned[limb] else None
             place = start + eased((u - 0.15) / 0.7) * (end - start) + lifted
@@ -164,3 +175,47 @@ def test_a_limb_is_as_far_from_a_bar_as_it_comes_on_the_way() -> None:
                 piece = np.array((ends[0], ends[0] + part * (ends[1] - ends[0])))
                 least = min(least, *(plain.gap_of_segments(piece, np.array((a, b))) - r - radius for a, b, r in bars))
         assert least - NEAR <= margins["clearance"] <= least + longest / 6.0
+
+
+@pytest.mark.parametrize("turned", [20.0, 60.0, 90.0, 140.0])
+@pytest.mark.parametrize(("before", "behind"), [(0.05, 0.05), (0.02, 0.09), (0.1, 0.01)])
+def test_a_path_goes_around_an_edge(turned: float, before: float, behind: float) -> None:
+    """Every place of it is outside one of the two surfaces, and in its middle as far outside as its lift has it."""
+    c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+    first, last = np.array((0.0, 0.0, 1.0)), np.array((s, 0.0, c))
+    start, end = before * np.array((-1.0, 0.2, 0.0)), behind * np.array((c, -0.3, -s))
+    normals, lift = np.stack((first, last)), 0.03
+    path = TipPath(start, end, normals, lift_between(np.stack((start, end)), normals, lift), 1.0)
+    places = np.array([path.at(u)[0] for u in np.linspace(0.0, 1.0, 201)])
+    outside = np.maximum((places - start) @ first, (places - end) @ last)
+    assert outside.min() > -1e-12
+    assert outside[100] >= 0.5 * lift * (1.0 + c) - 1e-12
+
+
+@pytest.mark.parametrize("turned", [0.0, -30.0, -90.0])
+def test_a_path_over_a_plane_or_through_a_corner_is_lifted_as_the_task_says(turned: float) -> None:
+    c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+    normals = np.array(((0.0, 0.0, 1.0), (s, 0.0, c)))
+    ends = np.array(((-0.1, 0.0, 0.0), 0.1 * np.array((c, 0.1, -s))))
+    assert lift_between(ends, normals, 0.03) == pytest.approx(0.015 * normals.sum(axis=0), abs=1e-15)
+
+
+def test_tips_stay_outside_a_wall_and_its_top() -> None:
+    task: Any = load_task("scene-top-out")
+    found = plan_beam(task, width=30, threads=1)
+    assert found.has_plan, found.reason
+    (box,) = task.world.solids
+    held = SpatialProblem(task, 1).start["hold"][0]
+    holds = {limb: int(hold) for limb, hold in zip(task.robot.chains.limb_names, held, strict=False)}
+    around = 0
+    for action in found.plan.actions:
+        if action.kind != "grab":
+            continue
+        ends = [holds[action.limb], action.hold - 1]
+        holds[action.limb] = ends[1]
+        places, normals = task.world.places[ends], task.world.normals[ends]
+        path = TipPath(places[0], places[1], normals, lift_between(places, normals, task.rules.lift), 1.0)
+        points = np.array([path.at(u)[0] for u in np.linspace(0.0, 1.0, 101)])
+        assert plain.depth_in_box(points - np.array(box.at), 0.5 * np.array(box.size)).min() > -1e-9
+        around += normals[0] @ normals[1] < 0.5
+    assert around > 0

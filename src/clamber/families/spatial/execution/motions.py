@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
+from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
 from .references import PEAK_SPEED, BodyPath, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
@@ -133,8 +134,10 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
     reason = f"nothing to hold on to within {1e3 * body.pace.depth:.0f} mm"
     for tries, beside in enumerate(_beside(body, normals[1]), start=1):
         end = place + beside
-        seconds = swing_seconds(float(np.linalg.norm(end - body.tips[limb])), body.lift, body.pace.swing)
-        path = TipPath(body.tips[limb].copy(), end, normals, body.lift, seconds)
+        start = body.tips[limb].copy()
+        up = lift_between(np.stack((start, end)), normals, body.lift)
+        seconds = swing_seconds(float(np.linalg.norm(end - start)), float(np.linalg.norm(up)), body.pace.swing)
+        path = TipPath(start, end, normals, up, seconds)
         path = replace(path, seconds=max(seconds, joint_seconds(body, limb, path, posture)))
         _swing(body, limb, path, posture)
         if _approach(body, limb, path):

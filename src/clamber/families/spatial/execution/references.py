@@ -8,15 +8,12 @@ import numpy as np
 
 from ....types import Floats
 from ..control.turn_kernels import turn_by, write_quaternion
+from ..statics.stance_kernels import OFF, RISE
 
 PEAK_SPEED: Final = 1.875
 """Of a quintic from rest to rest, of its way per its time [-] ..."""
 PEAK: Final = 10.0 / math.sqrt(3.0)
 """... and of its acceleration, of its way per its squared time [-]."""
-OFF: Final = 0.15
-"""Share of a swing in which the tip only lifts, and in which it only comes down [-]; as the check `swing` has it."""
-RISE: Final = 0.4
-"""Share of a swing in which the tip rises, and in which it sinks [-]; as the check `swing` has it."""
 
 
 def quintic(u: float) -> tuple[float, float, float]:
@@ -72,8 +69,8 @@ class TipPath:
     """[m], shape (3,)."""
     normals: Floats
     """At both, out of the surfaces, shape (2, 3)."""
-    lift: float
-    """[m]."""
+    up: Floats
+    """How far it is lifted at its highest [m], shape (3,)."""
     seconds: float
 
     def at(self, time: float) -> tuple[Floats, Floats, Floats]:
@@ -83,7 +80,7 @@ class TipPath:
         share, speed, acceleration = quintic((u - OFF) / long)
         height, rate, curve = quintic((u if u < 0.5 else 1.0 - u) / RISE)
         rate = rate if u < 0.5 else -rate
-        way, up = self.end - self.start, 0.5 * self.lift * self.normals.sum(axis=0)
+        way, up = self.end - self.start, self.up
         return (
             self.start + share * way + height * up,
             per * (speed / long * way + rate / RISE * up),

@@ -189,47 +189,22 @@ def body_between(chains: Chains, before: Posed, after: Posed, tips: Floats, shar
     return reach_tips(chains, Posed(place, turn, q), tips)
 
 
-def swing_between(chains: Chains, before: Posed, after: Posed, path: "SwingPath", share: float) -> Posed:
+def swing_between(chains: Chains, before: Posed, after: Posed, limb: int, tip: Floats, share: float) -> Posed:
     """A limb on its way between two holds: its tip is on its path, all else as before.
 
     Args:
         chains: The robot.
         before, after: The stances; the body is where it was.
-        path: Of the limb's tip.
+        limb: Which swings.
+        tip: Where its tip is by now, world frame [m], shape (3,).
         share: Of the way, in [0, 1].
     """
     q = before.q.copy()
-    q[path.limb] += share * (after.q[path.limb] - before.q[path.limb])
+    q[limb] += share * (after.q[limb] - before.q[limb])
     start = Posed(after.place, after.turn, q)
     tips = link_frames(chains, Posed(after.place, after.turn, before.q)).tips.copy()
-    tips[path.limb] = path.at(share)
+    tips[limb] = tip
     return reach_tips(chains, start, tips)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SwingPath:
-    """The lifted path of a tip between two holds: off along the normals first, on last, as the check `swing` has it."""
-
-    limb: int
-    ends: Floats
-    """Places of both holds, world frame [m], shape (2, 3)."""
-    normals: Floats
-    """Their normals, shape (2, 3)."""
-    lift: float
-    """Height of the path [m]."""
-
-    def at(self, share: float) -> Floats:
-        """Place of the tip at a share of the way [m], shape (3,)."""
-        along = _smooth((share - 0.15) / 0.7)
-        height = self.lift * _smooth((share if share < 0.5 else 1.0 - share) / 0.4)
-        made: Floats = self.ends[0] + along * (self.ends[1] - self.ends[0]) + 0.5 * height * self.normals.sum(axis=0)
-        return made
-
-
-def _smooth(u: float) -> float:
-    """Quintic from 0 to 1 with no speed and no acceleration at its ends."""
-    u = min(1.0, max(0.0, u))
-    return u * u * u * (10.0 - 15.0 * u + 6.0 * u * u)
 
 
 def centre_of_mass(chains: Chains, at: Posed, frames: LinkFrames) -> Floats:

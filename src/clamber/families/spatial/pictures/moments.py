@@ -9,12 +9,13 @@ import numpy as np
 
 from ....types import Floats, Records
 from ....viewing.recording import Part
+from ..execution.references import TipPath
 from ..planning.plans import poses_of
 from ..planning.task import SpatialTask
+from ..statics.judging import lift_between
 from .geometry import (
     LinkFrames,
     Posed,
-    SwingPath,
     body_between,
     centre_of_mass,
     joint_torques,
@@ -114,16 +115,15 @@ class Between:
         ]
         if not moved:
             return [Part("move", lambda share, way: self.body(share))]
-        path = self._path(moved[0])
-        line = np.array([path.at(share) for share in np.linspace(0.0, 1.0, 33)])
-        wrenches = self.loads(moved[0])
-        return [Part("swing", lambda share, way: self.swing(path, line, wrenches, share))]
+        limb, path = moved[0], self._path(moved[0])
+        line = np.array([path.at(share)[0] for share in np.linspace(0.0, 1.0, 33)])
+        wrenches = self.loads(limb)
+        return [Part("swing", lambda share, way: self.swing(limb, path.at(share)[0], line, wrenches, share))]
 
-    def _path(self, limb: int) -> SwingPath:
+    def _path(self, limb: int) -> TipPath:
         ends = np.stack((self.before.tips[limb], self.after.tips[limb]))
-        return SwingPath(
-            limb, ends, np.stack((self.before.normals[limb], self.after.normals[limb])), self.task.rules.lift
-        )
+        normals = np.stack((self.before.normals[limb], self.after.normals[limb]))
+        return TipPath(ends[0], ends[1], normals, lift_between(ends, normals, self.task.rules.lift), seconds=1.0)
 
     def body(self, share: float) -> Moment:
         """The body at a share of its way; forces pass from those of one stance to those of the next."""
@@ -135,13 +135,13 @@ class Between:
         wrenches = before.wrenches + share * (after.wrenches - before.wrenches)
         return self._moment(at, share, before.holds, wrenches, None)
 
-    def swing(self, path: SwingPath, line: Floats, wrenches: Floats, share: float) -> Moment:
+    def swing(self, limb: int, tip: Floats, line: Floats, wrenches: Floats, share: float) -> Moment:
         """The limb at a share of its path, while the others hold the robot."""
         if share >= 1.0:
             return self.after
         before, after = self.before, self.after
-        at = swing_between(self.task.robot.chains, before.body, after.body, path, share)
-        holds = tuple(SWINGING if limb == path.limb else hold for limb, hold in enumerate(before.holds))
+        at = swing_between(self.task.robot.chains, before.body, after.body, limb, tip, share)
+        holds = tuple(SWINGING if which == limb else hold for which, hold in enumerate(before.holds))
         return self._moment(at, share, holds, wrenches, line)
 
     def _moment(self, at: Posed, share: float, holds: tuple[int, ...], wrenches: Floats, path: Floats | None) -> Moment:

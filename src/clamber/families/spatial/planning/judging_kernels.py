@@ -16,7 +16,10 @@ from ..statics.stance_kernels import (
     judge_forces,
     judge_postures,
     judge_shape,
+    lift_over,
+    lifted_share,
     limb_in_world,
+    path_point,
     place_in_world,
     solve_limb,
     swing_reach,
@@ -30,6 +33,10 @@ from .records import AXES, KNOWN, LIFTED
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
+TIP_POINTS = 28
+"""Of a lifted path, whose distance from solids is looked at."""
+HALF = 0.5
+"""Share of its lift that a tip keeps over solids on its way: the rest is for a law to stray."""
 BETWEEN = 3
 """Places of a link between its ends that are held against solids."""
 
@@ -346,6 +353,27 @@ def lessen(margins, check, margin):
 
 
 @kernel
+def tip_room(p, swing, work):
+    """What a lifted path lacks of half its lift over solids where that is most [m], not above 0; both holds may lie a little inside."""
+    solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
+    place, up = work.full[:3], work.six[:3]
+    first, last = swing[0].place, swing[1].place
+    inside = min(0.0, terrain_distance(solids, first[0], first[1], first[2]))
+    inside = min(inside, terrain_distance(solids, last[0], last[1], last[2]))
+    lift_over(first, last, swing[0].normal, swing[1].normal, p.lift, up)
+    cosine = 0.0
+    for a in range(3):
+        cosine += swing[0].normal[a] * swing[1].normal[a]
+    room = 0.0
+    for point in range(1, TIP_POINTS):
+        u = point / TIP_POINTS
+        path_point(swing[0], swing[1], up, u, place)
+        wanted = HALF * 0.5 * (1.0 + cosine) * lifted_share(u) * p.lift
+        room = min(room, terrain_distance(solids, place[0], place[1], place[2]) - inside - wanted)
+    return room
+
+
+@kernel
 def judge_swing(p, s, limb, hold, margins):
     """Judge the lifted path of a limb from its hold to another, while the others stand as `origin` of the scratch has them.
 
@@ -389,7 +417,12 @@ def judge_swing(p, s, limb, hold, margins):
             away = limb_solids_gap(robot, solids, limb, judged.origin[limb], away)
     lessen(margins, LIMB_LIMB, between - rules.limb_room)
     lessen(margins, LIMB_BODY, beside - rules.limb_room)
-    lessen(margins, CLEARANCE, away - p.clearance)
+    away -= p.clearance
+    if p.n_solids > 0:
+        room = tip_room(p, swing, work)
+        if room < 0.0:
+            away = min(away, room)
+    lessen(margins, CLEARANCE, away)
     for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
         if p.hard >> check & 1 and margins[check] < -TOLERANCE:
             return check

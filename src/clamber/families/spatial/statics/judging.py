@@ -13,7 +13,7 @@ from ..robot.contacts import Contact
 from .checks import STANCE_CHECKS
 from .records import BODY, CONTACT, JUDGED, RULES, WORK, robot_record
 from .seeds import SeedTable, seed_table
-from .stance_kernels import judge_each
+from .stance_kernels import judge_each, lift_over
 
 Reasons: TypeAlias = npt.NDArray[np.int64]
 """Numbers of checks (`STANCE_CHECKS`), -1 for none."""
@@ -35,6 +35,19 @@ def rules_record(**rules: float) -> Records:
     for name, value in rules.items():
         row[name] = value
     return record
+
+
+def lift_between(ends: Floats, normals: Floats, lift: float) -> Floats:
+    """How far a tip's path is lifted off the straight line at its highest [m], shape (3,).
+
+    Args:
+        ends: Places of both holds [m], shape (2, 3).
+        normals: Theirs, out of the surfaces, shape (2, 3).
+        lift: Height over a plane [m].
+    """
+    up = np.empty(3)
+    lift_over(ends[0], ends[1], normals[0], normals[1], lift, up)
+    return up
 
 
 class Statics:

@@ -17,6 +17,12 @@ NEAR = 1e-6
 """Where searches of postures end, per size of the robot."""
 OTHER_SEEDS = 6
 """Seeds of the cells beside that a limb that has to be aligned is tried from where its own fails."""
+OFF = 0.15
+"""Share of a lifted path in which the tip only lifts, and in which it only comes down [-]."""
+RISE = 0.4
+"""Share of it in which the tip rises, and in which it sinks [-]."""
+SHARPEST = 0.1
+"""Of an edge that a path goes around, one more than the cosine of its normals [-]."""
 PATH_JUMP = 1.0
 """Largest change of a joint from one of them to the next [rad] or [m]."""
 PATH_NEAR = 1e-4
@@ -233,17 +239,46 @@ def smooth(u):
 
 
 @kernel
-def path_point(start, end, lift, u, to):
-    """Place of a lifted tip [m] at the share u of its way between two contacts (`CONTACT`): off along the normals first, on last."""
-    along = smooth((u - 0.15) / 0.7)
-    height = smooth((u if u < 0.5 else 1.0 - u) / 0.4) * lift
+def lift_over(start, end, first, last, lift, up):
+    """Write how far a path between two places is lifted off the straight line at its highest, along the mean of their normals.
+
+    Where each place lies behind the other's surface, as on both sides of an edge, the path is that much higher that it passes the edge.
+
+    Args:
+        start, end: The places [m].
+        first, last: Their normals, out of the surfaces.
+        lift: Height over a plane [m].
+        up: Output, shape (3,).
+    """
+    behind, before, cosine = 0.0, 0.0, 0.0
     for a in range(3):
-        to[a] = start.place[a] + along * (end.place[a] - start.place[a])
-        to[a] += height * 0.5 * (start.normal[a] + end.normal[a])
+        way = end[a] - start[a]
+        behind -= first[a] * way
+        before += last[a] * way
+        cosine += first[a] * last[a]
+    if behind > 0.0 and before > 0.0 and 1.0 + cosine > SHARPEST:
+        lift += max(behind, before) / (1.0 + cosine)
+    for a in range(3):
+        up[a] = 0.5 * lift * (first[a] + last[a])
+
+
+@inlined
+def lifted_share(u):
+    """Share of its lift that a path has at the share u of its way."""
+    return smooth((u if u < 0.5 else 1.0 - u) / RISE)
 
 
 @kernel
-def follow_path(robot, body, limb, swing, lift, u, work):
+def path_point(start, end, up, u, to):
+    """Place of a lifted tip [m] at the share u of its way between two contacts (`CONTACT`): off along the normals first, on last."""
+    along = smooth((u - OFF) / (1.0 - 2.0 * OFF))
+    height = lifted_share(u)
+    for a in range(3):
+        to[a] = start.place[a] + along * (end.place[a] - start.place[a]) + height * up[a]
+
+
+@kernel
+def follow_path(robot, body, limb, swing, up, u, work):
     """Solve a limb at one point of the lifted path between two contacts (`path_point`), from the posture in `work`, which it replaces.
 
     An aligned limb also turns its end effector from the one inward normal to the other.
@@ -253,7 +288,7 @@ def follow_path(robot, body, limb, swing, lift, u, work):
         body: Record of `BODY`.
         limb: Index of the limb.
         swing: Two records of `CONTACT`: where it is and where it goes.
-        lift: Height of the path [m].
+        up: How far the path is lifted (`lift_over`).
         u: Share of the path from 0 to 1.
         work: Record of `WORK`; afterwards `origin` has the limb's joints in the base frame.
 
@@ -262,7 +297,7 @@ def follow_path(robot, body, limb, swing, lift, u, work):
     """
     place = work.full[:3]
     normal = work.entering[:3]
-    path_point(swing[0], swing[1], lift, u, place)
+    path_point(swing[0], swing[1], up, u, place)
     square = 0.0
     for a in range(3):
         normal[a] = swing[0].normal[a] + smooth(u) * (swing[1].normal[a] - swing[0].normal[a])
@@ -296,11 +331,12 @@ def swing_reach(robot, body, limb, swing, before, lift, work):
     for k in range(n):
         work.posture[limb, k] = before.posture[limb, k]
     room = PATH_REACHED * robot.size
-    last = work.price
+    last, up = work.price, work.six[:3]
+    lift_over(swing[0].place, swing[1].place, swing[0].normal, swing[1].normal, lift, up)
     for point in range(1, PATH_POINTS + 1):
         for k in range(n):
             last[k] = work.posture[limb, k]
-        error = follow_path(robot, body, limb, swing, lift, point / PATH_POINTS, work)
+        error = follow_path(robot, body, limb, swing, up, point / PATH_POINTS, work)
         for k in range(n + 1):
             for a in range(3):
                 work.way[point - 1, k, a] = work.origin[limb, k, a]
