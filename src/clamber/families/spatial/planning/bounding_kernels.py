@@ -15,8 +15,8 @@ from ....planning.problem.check import TOLERANCE
 from ..statics.checks import JUMP
 from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.stance_kernels import aim_limb, solve_limb
-from .judging_kernels import robot_of, scratch_of
-from .poses_kernels import goals_of, holds_of, meets, outside, place_body, yaw_missing
+from .judging_kernels import scratch_of
+from .poses_kernels import goals_of, holds_of, meets, outside, place_body, robot_of, yaw_missing
 from .records import ACROSS, ALONG, AXES, HEIGHT, PITCH, ROLL, YAW
 from .step_kernels import MOVES, shift
 

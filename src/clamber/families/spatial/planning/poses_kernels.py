@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
+from ..statics.records import ROBOT
 from ..world.guide import GRAIN, NODE
 from .records import ACROSS, ALONG, GOAL, HEIGHT, HOLD, PITCH, ROLL, YAW
 
@@ -16,6 +17,12 @@ FOLLOW = 3
 def goals_of(p):
     """Goals in order."""
     return carray(pointer(p.goals_at), p.n_goals, GOAL)
+
+
+@inlined
+def robot_of(p):
+    """The robot."""
+    return carray(pointer(p.robot_at), 1, ROBOT)[0]
 
 
 @inlined

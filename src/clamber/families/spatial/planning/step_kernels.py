@@ -14,8 +14,8 @@ from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
-from .judging_kernels import SCRATCH, copy, judge_stance, judge_swing, judge_taken, robot_of, scratch_of
-from .poses_kernels import away_from, goals_of, holds_of, meets, place_body
+from .judging_kernels import SCRATCH, copy, judge_stance, judge_swing, judge_taken, scratch_of
+from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, robot_of
 from .records import AXES, HEIGHT, PITCH, ROLL, YAW
 
 NEAR = 2 * AXES
