@@ -5,15 +5,13 @@ import math
 from ....compiled import carray, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ..statics.records import CLEAR
-from ..statics.stance_kernels import lift_over, lifted_share, path_point
+from ..statics.stance_kernels import HALF, lift_over, lifted_share, path_point
 from ..world.solids import SOLID
 from ..world.terrain_kernels import terrain_distance
 from .poses_kernels import robot_of
 
 TIP_POINTS = 28
 """Of a lifted path, whose distance from solids is looked at."""
-HALF = 0.5
-"""Share of its lift that a tip keeps over solids on its way: the rest is for a law to stray."""
 BETWEEN = 3
 """Places of a link between its ends that are held against solids."""
 

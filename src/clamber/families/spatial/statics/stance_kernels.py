@@ -21,6 +21,8 @@ OFF = 0.15
 """Share of a lifted path in which the tip only lifts, and in which it only comes down [-]."""
 RISE = 0.4
 """Share of it in which the tip rises, and in which it sinks [-]."""
+HALF = 0.5
+"""Share of its lift that a tip keeps over solids on its way [-]: the rest is for bumps, and for a law to stray."""
 SHARPEST = 0.1
 """Of an edge that a path goes around, one more than the cosine of its normals [-]."""
 PATH_JUMP = 1.0
@@ -242,7 +244,8 @@ def smooth(u):
 def lift_over(start, end, first, last, lift, up):
     """Write how far a path between two places is lifted off the straight line at its highest, along the mean of their normals.
 
-    Where each place lies behind the other's surface, as on both sides of an edge, the path is that much higher that it passes the edge.
+    Where each place lies behind the other's surface, as on both sides of an edge, the path is that much higher that it passes the edge with
+    `HALF` of its lift.
 
     Args:
         start, end: The places [m].
@@ -257,7 +260,7 @@ def lift_over(start, end, first, last, lift, up):
         before += last[a] * way
         cosine += first[a] * last[a]
     if behind > 0.0 and before > 0.0 and 1.0 + cosine > SHARPEST:
-        lift += max(behind, before) / (1.0 + cosine)
+        lift += max(0.0, max(behind, before) / (1.0 + cosine) - (1.0 - HALF) * lift)
     for a in range(3):
         up[a] = 0.5 * lift * (first[a] + last[a])
 
