@@ -11,6 +11,7 @@ from scipy.optimize import least_squares
 import plain_spatial as plain
 from clamber.families.spatial.execution.references import TipPath
 from clamber.families.spatial.planning.problem import SpatialProblem
+from clamber.families.spatial.planning.robot_arrays import robot_arrays
 from clamber.families.spatial.robot.chains import Chains
 from clamber.families.spatial.statics.judging import lift_between
 from clamber.families.spatial.statics.records import CLEAR, PATH_POINTS
@@ -74,7 +75,7 @@ def swings(name: str) -> list[Any]:
     problem = SpatialProblem(task, 1, exact=True)
     stances = problem.replay(plan.codes(task)).stances
     chains, world = task.robot.chains, task.world
-    aligned = problem.params.array("robot")["aligned"][0]  # type: ignore[call-overload]
+    aligned = robot_arrays(task.robot).robot["aligned"][0]
     for action, step, before, after in zip(plan.actions, verdict.per_step, stances[:-1], stances[1:], strict=True):
         if action.kind != "grab":
             continue
