@@ -16,8 +16,16 @@ from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, joint_seconds, regrab, rest, share_loads
-from clamber.families.spatial.execution.references import BodyPath, TipPath, quaternion_of, rotation_of, rotation_vector
+from clamber.families.spatial.execution.motions import SPEED, regrab, rest, scaled, share_loads
+from clamber.families.spatial.execution.references import (
+    BodyPath,
+    TimeScaling,
+    TipPath,
+    quaternion_of,
+    rotation_of,
+    rotation_vector,
+    swing_seconds,
+)
 from clamber.families.spatial.execution.run_trace import RunTrace
 from clamber.families.spatial.execution.settings import Pace
 from clamber.families.spatial.planning.swing_loads import SwingLoads
@@ -65,19 +73,50 @@ def differences(path: BodyPath | TipPath, time: float, step: float = 1e-5) -> tu
 
 def test_velocities_and_accelerations_of_paths_are_those_of_their_places() -> None:
     normals = np.array(((0.0, 0.0, 1.0), (0.0, 0.6, 0.8)))
-    tip = TipPath(np.zeros(3), np.array((0.3, 0.1, 0.05)), normals, np.array((0.0, 0.018, 0.054)), 1.3)
+    tip = TipPath(np.zeros(3), np.array((0.3, 0.1, 0.05)), normals, np.array((0.0, 0.018, 0.054)))
     body = BodyPath.between(
         np.zeros(3), np.eye(3), np.array((0.1, 0.0, 0.2)), rotation_of(np.array((0.1, 0.3, 0.2))), 2.0
     )
     for time in (0.1, 0.31, 0.6, 0.83, 1.2):
-        velocity, acceleration = differences(tip, time)
-        assert np.allclose(tip.at(time)[1], velocity, atol=1e-6)
-        assert np.allclose(tip.at(time)[2], acceleration, atol=1e-3)
+        velocity, acceleration = differences(tip, time / 1.3)
+        assert np.allclose(tip.at(time / 1.3)[1], velocity, atol=1e-6)
+        assert np.allclose(tip.at(time / 1.3)[2], acceleration, atol=1e-3)
         velocity, acceleration = differences(body, time)
         assert np.allclose(body.at(time)[2][:3], velocity, atol=1e-6)
         assert np.allclose(body.at(time)[3][:3], acceleration, atol=1e-3)
         spin = rotation_vector(body.at(time + 1e-5)[1] @ body.at(time - 1e-5)[1].T) / 2e-5
         assert np.allclose(body.at(time)[2][3:], spin, atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_swing_slows_down_where_it_has_to_and_there_alone(seed: int) -> None:
+    """Its pieces take as long as asked at least, and its tip accelerates by half more at most."""
+    drawn = np.random.default_rng(seed)
+    way, up = drawn.uniform(-0.3, 0.3, 3), drawn.uniform(0.0, 0.05, 3)
+    path = TipPath(np.zeros(3), way, np.zeros((2, 3)), up)
+    seconds = swing_seconds(float(np.linalg.norm(way)), float(np.linalg.norm(up)), 0.5)
+    least = np.zeros(32)
+    least[drawn.integers(0, 32, 2)] = seconds * drawn.uniform(2.0, 20.0, 2)
+    scaling = TimeScaling.within(seconds, least)
+    assert (32 * np.diff(scaling.times) >= np.maximum(least, seconds) * (1.0 - 1e-12)).all()
+    assert scaling.times[-1] < 0.2 * least.max() + 2.0 * seconds
+    slowest = int(np.argmax(least))
+    assert 32 * np.diff(scaling.times)[slowest] == pytest.approx(least[slowest])
+    full = TimeScaling.within(seconds, np.zeros(32))
+    assert full.at(0.3 * seconds) == pytest.approx((0.3, 1.0 / seconds, 0.0))
+    most = []
+    for one in (full, scaling):
+        times = np.linspace(0.0, float(one.times[-1]), 2000)
+        most.append(max(float(np.linalg.norm(path.moving(*one.at(time))[2])) for time in times))
+    assert most[1] < 1.5 * most[0] + 1e-9
+    for time in np.linspace(0.011, scaling.times[-1] - 0.011, 40):
+        if np.abs(scaling.times - time).min() > 1e-5:  # the rate has a bend at each of these
+            (before, slower, _), (_, rate, quicker), (after, faster, _) = (
+                scaling.at(time + step) for step in (-1e-6, 0.0, 1e-6)
+            )
+            assert (after - before) / 2e-6 == pytest.approx(rate, abs=1e-6)
+            assert (faster - slower) / 2e-6 == pytest.approx(quicker, rel=1e-3, abs=1e-4)
+    assert scaling.at(float(scaling.times[-1]))[0] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-8, 0.5, 3.0, np.pi])
@@ -211,10 +250,11 @@ def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -
     normals = task.world.normals[[int(motion.before.holds[limb]), motion.hold]]
     start, end = body.tips[limb].copy(), task.world.places[motion.hold]
     up = lift_between(np.stack((start, end)), normals, body.lift)
-    seconds = joint_seconds(body, limb, TipPath(start, end, normals, up, 1.0), motion.after.joints)
-    path = TipPath(start, end, normals, up, seconds)
-    times = np.linspace(0.0, seconds, 400)
-    points = np.array([path.at(time)[0] for time in times])
+    path = TipPath(start, end, normals, up)
+    scaling = scaled(body, limb, path, motion.after.joints, 0.01)
+    shares, dense = np.linspace(0.0, 1.0, 400), np.linspace(0.0, scaling.times[-1], 10_000)
+    times = np.interp(shares, [scaling.at(time)[0] for time in dense], dense)
+    points = np.array([path.at(share)[0] for share in shares])
     joints = body.joints_along(limb, points, motion.after.joints)
     speeds = np.abs(np.diff(joints, axis=0)) / np.diff(times)[:, None]
     assert (speeds / limits.speed[mine]).max() < 1.05 * SPEED

@@ -186,7 +186,7 @@ def test_a_path_goes_around_an_edge(turned: float, before: float, behind: float)
     first, last = np.array((0.0, 0.0, 1.0)), np.array((s, 0.0, c))
     start, end = before * np.array((-1.0, 0.2, 0.0)), behind * np.array((c, -0.3, -s))
     normals, lift = np.stack((first, last)), 0.03
-    path = TipPath(start, end, normals, lift_between(np.stack((start, end)), normals, lift), 1.0)
+    path = TipPath(start, end, normals, lift_between(np.stack((start, end)), normals, lift))
     places = np.array([path.at(u)[0] for u in np.linspace(0.0, 1.0, 201)])
     outside = np.maximum((places - start) @ first, (places - end) @ last)
     assert outside.min() > -1e-12
@@ -215,7 +215,7 @@ def test_tips_stay_outside_a_wall_and_its_top() -> None:
         ends = [holds[action.limb], action.hold - 1]
         holds[action.limb] = ends[1]
         places, normals = task.world.places[ends], task.world.normals[ends]
-        path = TipPath(places[0], places[1], normals, lift_between(places, normals, task.rules.lift), 1.0)
+        path = TipPath(places[0], places[1], normals, lift_between(places, normals, task.rules.lift))
         points = np.array([path.at(u)[0] for u in np.linspace(0.0, 1.0, 101)])
         assert plain.depth_in_box(points - np.array(box.at), 0.5 * np.array(box.size)).min() > -1e-9
         around += normals[0] @ normals[1] < 0.5

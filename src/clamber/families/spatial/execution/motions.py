@@ -7,7 +7,7 @@ that what comes off under this load test has only to be taken again.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -16,7 +16,7 @@ from ....types import Floats
 from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
-from .references import PEAK_SPEED, BodyPath, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
+from .references import PEAK_SPEED, BodyPath, TimeScaling, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
 
 SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""
@@ -29,7 +29,7 @@ SAMPLES: Final = 33
 LEAST_SPEED: Final = 0.1
 """Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
-"""Share of a swing after which a tip may touch [-]."""
+"""Share of a swing's path after which a tip may touch [-]."""
 AROUND: Final = math.radians(137.5)
 """From one of them to the next, about the normal: the golden angle, which leaves no side out [rad]."""
 
@@ -137,9 +137,8 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
         start = body.tips[limb].copy()
         up = lift_between(np.stack((start, end)), normals, body.lift)
         seconds = swing_seconds(float(np.linalg.norm(end - start)), float(np.linalg.norm(up)), body.pace.swing)
-        path = TipPath(start, end, normals, up, seconds)
-        path = replace(path, seconds=max(seconds, joint_seconds(body, limb, path, posture)))
-        _swing(body, limb, path, posture)
+        path = TipPath(start, end, normals, up)
+        _swing(body, limb, path, scaled(body, limb, path, posture, seconds), posture)
         if _approach(body, limb, path):
             body.hold_on(limb, hold)
             off = float(np.linalg.norm(body.tips[limb] - place))
@@ -156,15 +155,15 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
     return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), body.pace.tries, reason)
 
 
-def joint_seconds(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> float:
-    """Least time of a swing in which its joints keep to their speeds, all along the path and less near their limits [s]."""
+def scaled(body: LimbedBody, limb: int, path: TipPath, posture: Floats, seconds: float) -> TimeScaling:
+    """Time along a swing in which its joints keep to their speeds, less near their limits; it takes so many seconds at least."""
     limits, mine = body.law.limits, slice(*body.joints_of(limb))
-    points = np.array([path.at(share * path.seconds)[0] for share in np.linspace(0.0, 1.0, SAMPLES)])
+    points = np.array([path.at(share)[0] for share in np.linspace(0.0, 1.0, SAMPLES)])
     joints = body.joints_along(limb, points, posture)
     moved = np.diff(joints, axis=0)
     ahead = np.where(moved > 0.0, limits.upper[mine] - joints[1:], joints[1:] - limits.lower[mine])
     most = np.clip(body.law.gains.limit_rate * ahead, LEAST_SPEED * limits.speed[mine], limits.speed[mine])
-    return float((np.abs(moved) * (SAMPLES - 1) / most).max()) / SPEED
+    return TimeScaling.within(seconds, (np.abs(moved) / most).max(axis=1) * (SAMPLES - 1) / SPEED)
 
 
 def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
@@ -175,18 +174,17 @@ def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
         yield out * (math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1])
 
 
-def _swing(body: LimbedBody, limb: int, path: TipPath, posture: Floats) -> None:
+def _swing(body: LimbedBody, limb: int, path: TipPath, scaling: TimeScaling, posture: Floats) -> None:
     """Along the path, to its end or to where what comes down touches."""
-    aims = body.law.aims
+    aims, period = body.law.aims, body.plant.period
     before = aims.posture.copy()
     pointed = bool(body.robot.contacts[limb].aligned)
-    count = math.ceil(path.seconds / body.plant.period)
-    for k in range(1, count + 1):
-        time = k * body.plant.period
-        body.swing(limb, path.at(time), path.points(time) if pointed else None)
-        aims.posture[:] = before + quintic(k / count)[0] * (posture - before)
+    for k in range(1, math.ceil(float(scaling.times[-1]) / period) + 1):
+        share, rate, quicker = scaling.at(k * period)
+        body.swing(limb, path.moving(share, rate, quicker), path.points(share) if pointed else None)
+        aims.posture[:] = before + quintic(share)[0] * (posture - before)
         body.tick()
-        if k > LOW * count and presses(body, limb):
+        if share > LOW and presses(body, limb):
             return
 
 

@@ -14,6 +14,8 @@ PEAK_SPEED: Final = 1.875
 """Of a quintic from rest to rest, of its way per its time [-] ..."""
 PEAK: Final = 10.0 / math.sqrt(3.0)
 """... and of its acceleration, of its way per its squared time [-]."""
+EASING: Final = PEAK / PEAK_SPEED
+"""Of the square of a path's rate, per share of the path: half of it times the peak speed is half the peak acceleration [-]."""
 
 
 def quintic(u: float) -> tuple[float, float, float]:
@@ -71,11 +73,9 @@ class TipPath:
     """At both, out of the surfaces, shape (2, 3)."""
     up: Floats
     """How far it is lifted at its highest [m], shape (3,)."""
-    seconds: float
 
-    def at(self, time: float) -> tuple[Floats, Floats, Floats]:
-        """Place, velocity and acceleration, shape (3,) each."""
-        u, per = time / self.seconds, 1.0 / self.seconds
+    def at(self, u: float) -> tuple[Floats, Floats, Floats]:
+        """Place, and its first and second derivative, at a share of the path [m], shape (3,) each."""
         long = 1.0 - 2.0 * OFF
         share, speed, acceleration = quintic((u - OFF) / long)
         height, rate, curve = quintic((u if u < 0.5 else 1.0 - u) / RISE)
@@ -83,17 +83,56 @@ class TipPath:
         way, up = self.end - self.start, self.up
         return (
             self.start + share * way + height * up,
-            per * (speed / long * way + rate / RISE * up),
-            per * per * (acceleration / long**2 * way + curve / RISE**2 * up),
+            speed / long * way + rate / RISE * up,
+            acceleration / long**2 * way + curve / RISE**2 * up,
         )
 
-    def points(self, time: float) -> Floats:
+    def moving(self, u: float, rate: float, quicker: float) -> tuple[Floats, Floats, Floats]:
+        """Place, velocity and acceleration where the share grows by a rate [1/s], and that by another [1/s^2]."""
+        place, first, second = self.at(u)
+        return place, rate * first, rate * rate * second + quicker * first
+
+    def points(self, u: float) -> Floats:
         """Direction of an end effector that turns from the one inward normal to the other, shape (3,)."""
-        share = quintic(time / self.seconds)[0]
+        share = quintic(u)[0]
         normal = self.normals[0] + share * (self.normals[1] - self.normals[0])
         length = float(np.linalg.norm(normal))
         found: Floats = -normal / length if length > 1e-6 else -self.normals[1]
         return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class TimeScaling:
+    """How a share of a path grows with time; its squared rate is linear between even shares, as in Pham and Pham (2018)."""
+
+    times: Floats
+    """At even shares of the path [s], shape (n,)."""
+    rates: Floats
+    """Of the share there [1/s], shape (n,)."""
+
+    @classmethod
+    def within(cls, seconds: float, least: Floats) -> "TimeScaling":
+        """The quickest one that slows down where it has to, and there alone.
+
+        Args:
+            seconds: That the path takes where nothing slows it.
+            least: That all of it would take at the rate which each of its equal pieces allows [s], shape (pieces,).
+        """
+        allowed = (seconds / np.maximum(least, seconds)) ** 2
+        nodes = np.minimum(np.append(allowed, 1.0), np.append(1.0, allowed))
+        shares = np.linspace(0.0, 1.0, len(nodes))
+        squares = np.min(nodes + EASING * np.abs(shares[:, None] - shares), axis=1)
+        rates = np.sqrt(squares) / seconds
+        return cls(np.append(0.0, np.cumsum(2.0 / len(least) / (rates[1:] + rates[:-1]))), rates)
+
+    def at(self, time: float) -> tuple[float, float, float]:
+        """Share, its rate and how that grows at a moment [-, 1/s, 1/s^2]."""
+        pieces = len(self.times) - 1
+        k = min(int(np.searchsorted(self.times, time, side="right")), pieces) - 1
+        start, rate = float(self.times[k]), float(self.rates[k])
+        quicker = (float(self.rates[k + 1]) - rate) / (float(self.times[k + 1]) - start)
+        since = time - start
+        return k / pieces + since * (rate + 0.5 * quicker * since), rate + quicker * since, quicker
 
 
 def swing_seconds(way: float, lift: float, acceleration: float) -> float:

@@ -123,7 +123,7 @@ class Between:
     def _path(self, limb: int) -> TipPath:
         ends = np.stack((self.before.tips[limb], self.after.tips[limb]))
         normals = np.stack((self.before.normals[limb], self.after.normals[limb]))
-        return TipPath(ends[0], ends[1], normals, lift_between(ends, normals, self.task.rules.lift), seconds=1.0)
+        return TipPath(ends[0], ends[1], normals, lift_between(ends, normals, self.task.rules.lift))
 
     def body(self, share: float) -> Moment:
         """The body at a share of its way; forces pass from those of one stance to those of the next."""
