@@ -84,9 +84,11 @@ def swings(name: str) -> list[Any]:
         base[:3, :3], base[:3, 3] = before["turn"].reshape(3, 3), before["place"]
         ends = [int(stance["hold"][limb]) for stance in (before, after)]
         (start, end), (first, last) = world.places[ends], world.normals[ends]
-        posture = before["q"][limb].copy()
+        posture, goal = before["q"][limb].copy(), after["q"][limb]
         way = [posture]
-        for u in np.arange(1, PATH_POINTS + 1) / PATH_POINTS:
+        for point in range(1, PATH_POINTS + 1):
+            u = point / PATH_POINTS
+            posture = posture + (goal - posture) / (PATH_POINTS + 1 - point)  # where it is free, it leans to the next stance's
             lifted = eased(min(u, 1.0 - u) / 0.4) * raised(end - start, first, last, task.rules.lift)
             normal = first + eased(u) * (last - first)
             normal = normal / np.linalg.norm(normal) if aligned[limb] else None

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from clamber.families.spatial.execution.references import TipPath
 from clamber.families.spatial.robot.chains import Chains
 from clamber.families.spatial.robot.contact_files import read_contact
 from clamber.families.spatial.robot.contact_kinds import build_contact
@@ -236,7 +237,8 @@ def path_rooms(machine: str, seed: int, shift: Floats, lift: float) -> tuple[flo
     swing = np.repeat(contacts[0, :1], 2)
     swing["place"][1] += bodies["rotation"][0].reshape(3, 3) @ shift
     work = np.zeros(1, WORK)
-    return swing_reach(statics.robot[0], bodies[0], 0, swing, judged[0], lift, work[0]), work, statics
+    room = swing_reach(statics.robot[0], statics.table.record, bodies[0], 0, swing, judged[0], lift, work[0])
+    return room, work, statics
 
 
 @pytest.mark.parametrize(("machine", "seed"), [("grippers", 16), ("feet", 17), ("clamps", 18)])
@@ -253,6 +255,58 @@ def test_a_lifted_path_within_reach_is_followed_and_one_beyond_is_not(machine: s
 def test_a_path_that_is_lifted_out_of_reach_says_so_though_its_ends_are_in_reach() -> None:
     shift = np.array([0.005, 0.005, 0.0])
     assert path_rooms("grippers", 16, shift, 0.01)[0] > 0.0 > path_rooms("grippers", 16, shift, 0.5)[0]
+
+
+def follow(chains: Chains, limb: int, posture: Floats, base: Floats, places: Floats) -> Floats:
+    """Postures of a limb of three joints whose tip goes through places that lie close together, shape (places, 3)."""
+
+    def tip(q: Floats) -> Floats:
+        return frames(chains, limb, np.append(q, posture[3:]), base)[-1][:3, 3]
+
+    q, found = posture[:3].copy(), []
+    for place in places:
+        for _ in range(3):
+            at = tip(q)
+            jacobian = np.stack([(tip(q + 1e-7 * np.eye(3)[k]) - at) / 1e-7 for k in range(3)], axis=1)
+            q = q + np.linalg.lstsq(jacobian, place - at, rcond=1e-9)[0]
+        found.append(q)
+    return np.array(found)
+
+
+@pytest.mark.parametrize("machine", ["grippers", "feet"])
+def test_a_path_that_is_followed_leads_to_the_posture_of_the_stance_behind_it(machine: str) -> None:
+    """Of two postures that a limb has for most places, beside its hip, it comes to the one that it is to have there.
+
+    Only where the path all but meets the axis of its first joint, it may go through that, from one posture to the other.
+    """
+    drawn, passed, through, lift = np.random.default_rng(5), 0, 0, 0.01
+    chains = MACHINES[machine][0]
+    for _ in range(400):
+        seed = int(drawn.integers(100))
+        statics, bodies, contacts = stance(machine, seed)
+        judged, _ = statics.judge(bodies, contacts)
+        if not judged["judged"][0]:
+            continue
+        base = np.eye(4)
+        base[:3, :3], base[:3, 3] = bodies["rotation"][0].reshape(3, 3), bodies["place"][0]
+        start, normal = contacts["place"][0, 0], contacts["normal"][0, 0]
+        hip = frames(chains, 0, judged["posture"][0, 0], base)[0][:3]
+        shift = base[:3, :3].T @ (drawn.uniform(0.5, 2.0) * (hip[:, 3] - start)) + drawn.normal(0.0, 0.02, 3)
+        shift[2] = drawn.normal(0.0, 0.02)
+        room, work, _ = path_rooms(machine, seed, shift, lift)
+        if room < 0.0:
+            continue
+        path = TipPath(start, start + base[:3, :3] @ shift, np.stack((normal, normal)), lift * normal)
+        places = np.array([path.at(u)[0] for u in np.linspace(0.0, 1.0, 300)])
+        beside = np.linalg.norm(np.cross(places - hip[:, 3], hip[:, 2]), axis=1).min()
+        if beside < 0.02 * float(statics.robot["size"][0]):
+            through += 1
+            continue
+        way = follow(chains, 0, judged["posture"][0, 0], base, places)
+        assert way[-1] == pytest.approx(work["posture"][0, 0, :3], abs=0.01)
+        assert (way > chains.lower[0, :3] - 0.1).all() and (way < chains.upper[0, :3] + 0.1).all()
+        passed += 1
+    assert passed > through > 0
 
 
 @pytest.mark.parametrize("machine", sorted(MACHINES))

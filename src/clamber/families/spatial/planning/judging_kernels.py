@@ -299,7 +299,7 @@ def judge_swing(p, s, limb, hold, margins):
         limb: Which swings.
         hold: Where it goes.
         margins: `swing` is written: error that is allowed less the largest that postures leave [m]; `limb_limb`, `limb_body` and
-            `clearance` become what they are on the path, if that is less.
+            `clearance` become what they are on the path, if that is less, unless `swing` is violated.
 
     Returns:
         The first violated hard check, or -1.
@@ -316,7 +316,8 @@ def judge_swing(p, s, limb, hold, margins):
         judged.posture[limb, k] = s.q[limb, k]
     body = carray(pointer(p.work_body_at), 1, BODY)[0]
     work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    margins[SWING] = swing_reach(robot, body, limb, swing, judged, p.lift, work)
+    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
+    margins[SWING] = swing_reach(robot, seeds, body, limb, swing, judged, p.lift, work)
     if margins[SWING] < -TOLERANCE:
         return SWING if p.hard >> SWING & 1 else -1
     rules = carray(pointer(p.rules_at), 1, RULES)[0]

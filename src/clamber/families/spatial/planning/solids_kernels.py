@@ -5,7 +5,7 @@ import math
 from ....compiled import carray, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ..statics.records import CLEAR
-from ..statics.stance_kernels import HALF, lift_over, lifted_share, path_point
+from ..statics.stance_kernels import KEPT_LIFT, lift_over, lifted_share, path_point
 from ..world.solids import SOLID
 from ..world.terrain_kernels import terrain_distance
 from .poses_kernels import robot_of
@@ -78,6 +78,6 @@ def tip_room(p, swing, work):
     for point in range(1, TIP_POINTS):
         u = point / TIP_POINTS
         path_point(swing[0], swing[1], up, u, place)
-        wanted = HALF * 0.5 * (1.0 + cosine) * lifted_share(u) * p.lift
+        wanted = KEPT_LIFT * 0.5 * (1.0 + cosine) * lifted_share(u) * p.lift
         room = min(room, terrain_distance(solids, place[0], place[1], place[2]) - inside - wanted)
     return room

@@ -21,12 +21,15 @@ OFF = 0.15
 """Share of a lifted path in which the tip only lifts, and in which it only comes down [-]."""
 RISE = 0.4
 """Share of it in which the tip rises, and in which it sinks [-]."""
-HALF = 0.5
+KEPT_LIFT = 0.5
 """Share of its lift that a tip keeps over solids on its way [-]: the rest is for bumps, and for a law to stray."""
 SHARPEST = 0.1
 """Of an edge that a path goes around, one more than the cosine of its normals [-]."""
-PATH_JUMP = 1.0
-"""Largest change of a joint from one of them to the next [rad] or [m]."""
+PATH_JUMP = 0.5
+"""Largest change of a joint from one posture on a lifted path to the next [rad] or [m]: beyond, postures between are solved, too."""
+PATH_PARTS = 16
+"""Of the way from one of `PATH_POINTS` to the next, at most. Where a limb can only jump, as to the other of two postures for a place,
+none is small enough, but where the path all but meets the singularity between them: there a limb goes through that."""
 PATH_NEAR = 1e-4
 PATH_REACHED = 1e-3
 """Per size of the robot."""
@@ -245,7 +248,7 @@ def lift_over(start, end, first, last, lift, up):
     """Write how far a path between two places is lifted off the straight line at its highest, along the mean of their normals.
 
     Where each place lies behind the other's surface, as on both sides of an edge, the path is that much higher that it passes the edge with
-    `HALF` of its lift.
+    `KEPT_LIFT` of its lift.
 
     Args:
         start, end: The places [m].
@@ -260,7 +263,7 @@ def lift_over(start, end, first, last, lift, up):
         before += last[a] * way
         cosine += first[a] * last[a]
     if behind > 0.0 and before > 0.0 and 1.0 + cosine > SHARPEST:
-        lift += max(0.0, max(behind, before) / (1.0 + cosine) - (1.0 - HALF) * lift)
+        lift += max(0.0, max(behind, before) / (1.0 + cosine) - (1.0 - KEPT_LIFT) * lift)
     for a in range(3):
         up[a] = 0.5 * lift * (first[a] + last[a])
 
@@ -314,40 +317,60 @@ def follow_path(robot, body, limb, swing, up, u, work):
 
 
 @kernel
-def swing_reach(robot, body, limb, swing, before, lift, work):
-    """How well a limb's tip follows the lifted path between two contacts with small changes of its joints, from the posture before.
+def swing_reach(robot, tables, body, limb, swing, before, lift, work):
+    """How well a limb's tip follows the lifted path between two contacts, from its posture before to that of the stance it goes to.
+
+    Where postures are free, as those of more joints than the path needs, they lean to the last one.
 
     Args:
         robot: Record of `ROBOT`.
+        tables: Record of `SEEDS`.
         body: Record of `BODY`.
         limb: Index of the limb.
         swing: Two records of `CONTACT`: where it is and where it goes.
         before: Record of `JUDGED`, or any with such a `posture`: the limb's at the first contact.
         lift: Height of the path [m].
-        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved, and `way` has the joints at all of them.
+        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved, and `way` has the joints at
+            `PATH_POINTS` of them.
 
     Returns:
         Distance that counts as reached less the largest error of the points [m]; where a joint would have to jump, what is missing of
         `PATH_JUMP`, negative. The points behind a violated one are not looked at.
     """
     n = robot.n_joints[limb]
+    posture, last, goal, up = work.posture[limb], work.price, work.solution, work.six[:3]
+    aim_limb(body, swing[1].place, swing[1].normal, limb, work)
+    solve_limb(robot, tables, limb, work)
     for k in range(n):
-        work.posture[limb, k] = before.posture[limb, k]
-    room = PATH_REACHED * robot.size
-    last, up = work.price, work.six[:3]
+        goal[k] = posture[k]
+        posture[k] = before.posture[limb, k]
     lift_over(swing[0].place, swing[1].place, swing[0].normal, swing[1].normal, lift, up)
-    for point in range(1, PATH_POINTS + 1):
+    room, parts, at = PATH_REACHED * robot.size, PATH_PARTS * PATH_POINTS, 0
+    while at < parts:
         for k in range(n):
-            last[k] = work.posture[limb, k]
-        error = follow_path(robot, body, limb, swing, up, point / PATH_POINTS, work)
-        for k in range(n + 1):
-            for a in range(3):
-                work.way[point - 1, k, a] = work.origin[limb, k, a]
+            last[k] = posture[k]
+        stride = PATH_PARTS - at % PATH_PARTS
+        while True:
+            share = stride / (parts - at)
+            for k in range(n):
+                posture[k] = last[k] + share * (goal[k] - last[k])
+            error = follow_path(robot, body, limb, swing, up, (at + stride) / parts, work)
+            jump = 0.0
+            for k in range(n):
+                jump = max(jump, abs(posture[k] - last[k]))
+            if jump <= PATH_JUMP or stride == 1:
+                break
+            stride = (stride + 1) >> 1
+        if jump > PATH_JUMP:
+            return PATH_JUMP - jump
         room = min(room, PATH_REACHED * robot.size - error)
-        for k in range(n):
-            room = min(room, PATH_JUMP - abs(work.posture[limb, k] - last[k]))
         if room < 0.0:
             return room
+        at += stride
+        if at % PATH_PARTS == 0:
+            for k in range(n + 1):
+                for a in range(3):
+                    work.way[at // PATH_PARTS - 1, k, a] = work.origin[limb, k, a]
     return room
 
 
