@@ -72,6 +72,16 @@ def test_compilation_is_told_of_while_kernels_come_and_not_longer(
     assert [line.split()[0] for line in lines] == ["compiling", "5", "6"]
 
 
+def test_a_plan_that_is_opened_for_a_run_does_not_compile_in_silence(tmp_path: Path) -> None:
+    command = [sys.executable, "-c", "from clamber.cli import main; main()", "run", "ladder-hand"]
+    environment = os.environ | {"CLAMBER_CACHE": str(tmp_path / "cache"), "COLUMNS": "200"}
+    with subprocess.Popen(command, stderr=subprocess.PIPE, text=True, env=environment) as process:
+        assert process.stderr is not None
+        first = process.stderr.readline()
+        process.kill()
+    assert first.startswith("compiling the kernels")
+
+
 def test_nothing_is_told_where_nothing_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "module.replay-1.py311.1.nbc").write_bytes(b"")
     output._tell_compilation(tmp_path, every=0.0, ended=Compiling(tmp_path, [0, 0, 0]))

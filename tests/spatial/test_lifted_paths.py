@@ -88,7 +88,9 @@ def swings(name: str) -> list[Any]:
         way = [posture]
         for point in range(1, PATH_POINTS + 1):
             u = point / PATH_POINTS
-            posture = posture + (goal - posture) / (PATH_POINTS + 1 - point)  # where it is free, it leans to the next stance's
+            posture = posture + (goal - posture) / (
+                PATH_POINTS + 1 - point
+            )  # where it is free, it leans to the next stance's
             lifted = eased(min(u, 1.0 - u) / 0.4) * raised(end - start, first, last, task.rules.lift)
             normal = first + eased(u) * (last - first)
             normal = normal / np.linalg.norm(normal) if aligned[limb] else None

@@ -8,7 +8,7 @@ from ...interrupts import answer
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
 from ...terminal.live_line import LiveLine
-from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
+from ...terminal.output import print_json, refuse_unused, stderr, stdout, tell_cuts
 from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
 from ...trials.work import Work
 from ...viewing.report.pages import open_report
@@ -48,7 +48,6 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
         work.check(asked)
         if words.report is not None:
             open_report(words.report, dynamics.kind)
-        announce_compilation(quiet=words.quiet)
         compile_ahead(*dynamics.compiled)
         cuts: list[None] = []
         events = RunEvents(

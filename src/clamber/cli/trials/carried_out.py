@@ -11,7 +11,7 @@ from ...json_form import Jsonable, plain
 from ...planning.progress import progress_text
 from ...terminal.compile_ahead import compile_ahead
 from ...terminal.live_line import LiveLine
-from ...terminal.output import announce_compilation, print_json, refuse_unused, stderr, stdout, tell_cuts
+from ...terminal.output import print_json, refuse_unused, stderr, stdout, tell_cuts
 from ...terminal.worker_options import WorkerOptions
 from ...trials.dynamics import NoPlanError, RunEvents, TrialsRequest
 from ...trials.fault_trials import fault_rows
@@ -46,7 +46,6 @@ def try_out(works: Sequence[Work], asked: TrialsOptions, words: WorkerOptions) -
     requests = [_request(work, asked, words, law) for work, law in zip(works, laws, strict=False)]
     if asked.replay is None:
         words.executor.check()  # before a minute is spent on a plan
-    announce_compilation(quiet=words.quiet)
     tried = []
     for number, (work, request) in enumerate(zip(works, requests, strict=True)):
         store = words.store if number == 0 else _beside(words.store)
