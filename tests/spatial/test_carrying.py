@@ -286,6 +286,37 @@ def test_a_foot_in_the_air_lets_go_as_any_other() -> None:
     assert not body.seeks(limb)
 
 
+def slid(task: SpatialTask, motion: Regrab) -> float:
+    """How far a foot goes along its ground from where it meets it until it has its load [m]."""
+    body, normal, limb = standing_body(task, motion.before), task.world.normals[motion.hold], motion.limb
+    met: list[Floats] = []
+    air = 0
+
+    def look() -> None:
+        nonlocal air
+        truth = body.plant.truth()
+        assert truth is not None
+        air = 0 if truth.wrenches[limb].any() else air + 1
+        if air * body.plant.period > 0.05:
+            met.clear()
+        elif air == 0:
+            met.append(body.tips[limb].copy())
+
+    body.told = look
+    assert regrab(body, motion).taken
+    way = np.array(met) - met[0]
+    return float(np.linalg.norm(way - np.outer(way @ normal, normal), axis=1).max())
+
+
+@pytest.mark.parametrize("name", ["stones-quadruped", "rubble-hexapod"])
+def test_a_foot_that_meets_its_ground_does_not_slide_along_it(name: str) -> None:
+    """The inertia of a stretched limb pushes along the limb: with an aim below the ground a hexapod's feet bounced, and slid by 10 mm."""
+    task, plan = first_steps(name)
+    motions = [motion for motion in Course.of(task, plan).motions if isinstance(motion, Regrab)]
+    for motion in motions:
+        assert slid(task, motion) < 0.006 * Pace.of(task.robot).size
+
+
 def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
     """A reading in twenty is above what a foot stands at: each swing would end in the air by one of them."""
     task, plan = first_steps("rubble-hexapod", grabs=1)

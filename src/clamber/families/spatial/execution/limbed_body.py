@@ -101,6 +101,8 @@ class LimbedBody:
         self._resting, self._open = np.full(limbs, -1, np.int32), np.zeros(limbs, np.int64)
         self._felt = np.zeros(limbs, np.int64)
         """Readings in a row above `touch`, shape (limbs,)."""
+        self._met = np.full(limbs, -math.inf)
+        """Tick of the last of them, shape (limbs,)."""
         self.fading = -1
         """The limb whose load fades before it lets go; -1: none."""
         self.ticks = 0
@@ -110,6 +112,8 @@ class LimbedBody:
         """Normals that limbs press against, shape (limbs, 3)."""
         self._presses = False
         self._push = np.zeros(limbs)
+        self._aimed = np.zeros((limbs, 3))
+        """Where tips are to be that press, deep as that may be [m], shape (limbs, 3)."""
         self._sought = np.full(limbs, math.nan)
         """How deep feet in the air have felt [m]."""
         self._ahead = State.of(tree)
@@ -223,6 +227,13 @@ class LimbedBody:
         aims = self.law.aims
         aims.does[limb] = SWINGS
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
+        self._aimed[limb] = path[0]
+        if self._presses and not self._in_air(
+            limb
+        ):  # pressed on as a spring alone: inertia would push along a stretched limb, and slide
+            normal = self._pressed[limb]
+            aims.tip[limb] += float((self.tips[limb] - path[0]) @ normal) * normal
+            aims.tip_velocity[limb] -= float(path[1] @ normal) * normal
         aims.points[limb] = 0.0 if points is None else points
 
     def press(self, limb: int, normal: Floats, force: float = 0.0) -> None:
@@ -258,6 +269,7 @@ class LimbedBody:
             return
         pace, felt = self.pace, self.sensed.wrenches
         bear_loads(aims, self._felt, felt, pace.touch, self.loads, self._pushing, self.fading, pace.stand)
+        self._met[self._felt > 0] = self.ticks
         self._press(law.tick())
         self.plant.actuate(law.torques)
         self.plant.step()
@@ -289,7 +301,7 @@ class LimbedBody:
             return
         for limb in np.flatnonzero(self._pressed.any(axis=1)).tolist():
             normal = self._pressed[limb]
-            missed = law.dynamics.tip[limb] - law.aims.tip[limb]
+            missed = law.dynamics.tip[limb] - self._aimed[limb]
             force = self._push[limb] + stiffness * max(0.0, float(missed @ normal))
             torques -= force * (normal @ law.dynamics.jacobian[limb, :3, FREE:])
             np.clip(torques, -law.limits.torque, law.limits.torque, out=torques)
@@ -315,6 +327,10 @@ class LimbedBody:
         """Whether a foot feels what it stands on: one reading may be noise, a few in a row are not."""
         return int(self._felt[limb]) >= FELT
 
+    def _in_air(self, limb: int) -> bool:
+        """Whether a limb has felt nothing for a while."""
+        return bool((self.ticks - self._met[limb]) * self.plant.period > LIFTED * self.pace.shift)
+
     def _seek(self, limb: int, hold: int) -> None:
         """Feel on along the inward normal for what a foot stood on."""
         if self.feels(limb):
@@ -327,7 +343,7 @@ class LimbedBody:
             self.let_go(limb)
             raise LostHoldError(limb, hold)
         swings = aims.does[limb] == SWINGS
-        before = aims.tip[limb] if swings else self.tips[limb]
+        before = self._aimed[limb] if swings else self.tips[limb]
         aim = before + self.plant.period * velocity
         pointed = inward if self.robot.contacts[limb].aligned else None
         self.swing(limb, (aim, velocity, np.zeros(3)), pointed)
