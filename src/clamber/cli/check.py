@@ -39,14 +39,14 @@ def check(
     from ..inspection.open_file import inspect_file, kind_of
 
     kind = kind_of(what)
+    if kind in ("plan", "task"):
+        announce_compilation()
     if kind == "plan":
         _check_plan(what, task, overrides or [], everything, as_json)
     if task is not None or everything:
         raise typer.BadParameter(f"is for plans; '{what}' is a {kind}", param_hint="--task" if task else "--all")
     if overrides and kind != "task":
         raise typer.BadParameter(f"is for plans and tasks; '{what}' is a {kind}", param_hint="--set")
-    if kind == "task":
-        announce_compilation()
     finding = inspect_file(what, kind, overrides or [])
     if as_json:
         print_json(finding)
@@ -56,7 +56,6 @@ def check(
 
 
 def _check_plan(what: str, task: str | None, overrides: list[str], everything: bool, as_json: bool) -> None:
-    announce_compilation()
     from ..planning.problem.plan_source import open_plan
     from ..planning.problem.verdict import CheckedPlan
     from ..trials.work import to_run
