@@ -228,9 +228,8 @@ class LimbedBody:
         aims.does[limb] = SWINGS
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
         self._aimed[limb] = path[0]
-        if self._presses and not self._in_air(
-            limb
-        ):  # pressed on as a spring alone: inertia would push along a stretched limb, and slide
+        if self._presses and not self._in_air(limb):
+            # The spring of `_press` alone presses: the limb's inertia would push along a stretched limb, and slide it
             normal = self._pressed[limb]
             aims.tip[limb] += float((self.tips[limb] - path[0]) @ normal) * normal
             aims.tip_velocity[limb] -= float(path[1] @ normal) * normal
