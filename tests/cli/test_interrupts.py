@@ -18,6 +18,9 @@ import pytest
 import typer
 
 from clamber import interrupts
+from clamber.cli import main
+from clamber.families.climber.execution.climbing import Climbing
+from clamber.families.climber.trials.warm_up import warm_up
 from clamber.terminal.output import stderr
 from clamber.terminal.worker_options import EndsLine, keeping
 
@@ -268,6 +271,30 @@ def test_parts_of_a_whole_do_not_answer_but_pass_it_on() -> None:
     with pytest.raises(KeyboardInterrupt):  # nobody has answered
         time.sleep(10.0 * interrupts.AGAIN)
     interrupts.answer()
+
+
+@pytest.mark.usefixtures("listens")
+def test_a_climb_that_only_warms_up_does_not_take_an_interrupt_for_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A run answers Ctrl-C with its report: of one action climbed for nothing nobody reads it, and the command went on."""
+    monkeypatch.setattr(Climbing, "begin", lambda climbing: signal.raise_signal(signal.SIGINT))
+    warm_up.cache_clear()
+    with pytest.raises(KeyboardInterrupt):
+        warm_up()
+    interrupts.answer()
+
+
+def test_a_contest_ends_with_an_interrupt_that_a_planner_would_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    def contest(**_: object) -> None:
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt:  # as planners do, which then answer with what they have
+            interrupts.answer()
+        raise AssertionError("it went on")
+
+    monkeypatch.setattr("clamber.benchmarks.contest.run_contest", contest)
+    with pytest.raises(SystemExit) as left:
+        main(["bench", "boards"])
+    assert left.value.code == 130
 
 
 def test_a_long_call_answers_and_raises_as_if_it_had_no_thread_of_its_own() -> None:

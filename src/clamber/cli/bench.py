@@ -130,7 +130,7 @@ def bench_boards(crew_of: "Callable[[Batch], Crew]", store: Path | None, *, outp
     from ..benchmarks.contest import run_contest
     from ..benchmarks.tables import rows_of, save_markdown, save_trials
 
-    with keeping(store, EndsLine(stderr(), "trials", quiet=False)) as batch:
+    with keeping(store, EndsLine(stderr(), "trials", quiet=False)) as batch, passed_on():
         contest = run_contest(crew=crew_of(batch))
     if output is not None and output.suffix.lower() not in TABLES:
         from ..benchmarks.pictures.boards_plot import draw_boards

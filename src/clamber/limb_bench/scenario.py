@@ -327,13 +327,11 @@ def force_scenario(limb: BenchLimb, rate: float, task: ForceTask) -> Scenario:
 
 def _smooth(part: Floats) -> Floats:
     """From 0 to 1 with speed 0 at both ends."""
-    out: Floats = part**2 * (3.0 - 2.0 * part)
-    return out
+    return part * part * (3.0 - 2.0 * part)
 
 
 def _smooth_rate(part: Floats) -> Floats:
-    out: Floats = 6.0 * part * (1.0 - part)
-    return out
+    return 6.0 * part * (1.0 - part)
 
 
 def _check_reach(limb: BenchLimb, task: ForceTask) -> None:

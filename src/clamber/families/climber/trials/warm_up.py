@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from ....execution.sequencer import Sequencer
+from ....interrupts import passed_on
 from ....kernel_cache import Use
 from ....planning.problem.plan import Plan
 from ....sim.flaw_texts import named_flaws
@@ -23,6 +24,7 @@ FIRST_GRAB: Final = 106
 
 
 @cache
+@passed_on()  # the climb of one action would end with what it has, and the command go on
 def warm_up() -> None:
     """Climb one action for nothing, once in a process: compiling takes minutes, loading what is compiled a second."""
     task = _on_the_ladder()
