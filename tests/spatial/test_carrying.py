@@ -158,7 +158,9 @@ def test_a_robot_carries_its_first_steps_out(name: str) -> None:
     assert max(motion.off for motion in taken) < 0.01
     again = RunTrace.from_log(run.trace.to_log())
     assert again.report == run.trace.report
-    assert np.array_equal(again.true_pose, run.trace.true_pose)  # type: ignore[arg-type]
+    assert again.true_pose is not None
+    assert run.trace.true_pose is not None
+    assert np.array_equal(again.true_pose, run.trace.true_pose)
 
 
 def standing_body(task: SpatialTask, start: Standing, flaws: SpatialFlaws | None = None) -> LimbedBody:
