@@ -85,7 +85,6 @@ def test_a_plan_that_is_opened_for_a_run_does_not_compile_in_silence(tmp_path: P
 def test_nothing_is_told_where_nothing_compiles(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "module.replay-1.py311.1.nbc").write_bytes(b"")
     output._tell_compilation(tmp_path, every=0.0, ended=Compiling(tmp_path, [0, 0, 0]))
-    output.announce_compilation(quiet=True)
     assert capsys.readouterr().err == ""
 
 

@@ -19,7 +19,7 @@ from ..errors import ClamberError, printable
 from ..interrupts import unanswered
 from ..terminal.command_end import until_command_ends
 from ..terminal.options import UnitsChoice
-from ..terminal.output import fall_silent
+from ..terminal.output import announce_compilation, fall_silent
 from .commands import add_commands, under_new_name
 
 SECONDS: Final = 600.0
@@ -213,6 +213,8 @@ def run(arguments: Sequence[str] | None = None) -> int | str | None:
     )  # MuJoCo simulates and draws nothing; its windows begin a process that Ctrl-C would end loudly
     try:
         command = command_of(application(None if completes else called))
+        if not {"-q", "--quiet"} & set(words):
+            announce_compilation()
         return _called(command, words)
     except SystemExit as end:
         return end.code

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from ..interrupts import answer, passed_on
 from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
-from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout
 from ..terminal.worker_options import Batch, EndsLine, check_resume, executor_of, keeping
 from ..viewing.text_table import plain_table
 
@@ -43,8 +43,6 @@ def bench(
     executor = executor_of(ray, workers)
     if ray is not None:
         executor.check()
-    if ray is None and only != "start":
-        announce_compilation()
 
     def crew_of(batch: Batch) -> "Crew":
         return Crew(executor=executor, store=batch.store, resume=resume, progress=batch.line.update)

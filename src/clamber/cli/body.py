@@ -10,7 +10,7 @@ from rich.console import Console
 
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, FlawsChoice, Output, Quiet, takes_options
-from ..terminal.output import announce_compilation, print_json, stderr, stdout
+from ..terminal.output import print_json, stderr, stdout
 from ..terminal.worker_options import EndsLine
 from .limb.options import MatchChoice, check_output, show_table, tell_written
 
@@ -138,7 +138,6 @@ def run_bench(words: BodyOptions, stand: "BodyStand", scenario: "BodyScenario", 
     """Run the controls one by one, write and print what came out, and leave with 0 if no hook came off, else 1."""
     from ..families.climber.trials.body_bench import BodyContest, measure_body, run_bodies
 
-    announce_compilation(quiet=words.quiet)
     runs = run_bodies(stand, scenario, words.build_entries(stand), flaws)
     measured = [measure_body(run, scenario) for run in runs]
     if words.output is not None:
@@ -249,7 +248,6 @@ def push(
     size = read_point("force", force, "force")
     if trials == 1:
         run_bench(words, stand, pushed(stand.pose, flaws.period, force=size, seconds=seconds), flaws)
-    announce_compilation(quiet=words.quiet)
     told = {}
     for entry in words.build_entries(stand):
         with EndsLine(stderr(), f"pushes, {entry.label}", quiet=words.quiet) as line:

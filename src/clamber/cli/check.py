@@ -7,7 +7,7 @@ from rich.console import Console
 
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides
-from ..terminal.output import announce_compilation, print_json, stdout
+from ..terminal.output import print_json, stdout
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -39,8 +39,6 @@ def check(
     from ..inspection.open_file import inspect_file, kind_of
 
     kind = kind_of(what)
-    if kind in ("plan", "task"):
-        announce_compilation()
     if kind == "plan":
         _check_plan(what, task, overrides or [], everything, as_json)
     if task is not None or everything:

@@ -7,7 +7,7 @@ import typer
 
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides
-from ..terminal.output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.output import check_writable, print_json, stdout
 
 
 def export(
@@ -35,10 +35,7 @@ def export(
     """
     check_writable(output)
     from ..exports.library import export as write
-    from ..exports.library import kind_of
 
-    if kind_of(thing) == "plan":
-        announce_compilation()
     written = write(thing, output, task, overrides or ())
     if as_json:
         print_json(written)

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from ..terminal.options import AsJson, Overrides, TaskName
-from ..terminal.output import announce_compilation, print_indented, print_json, stdout
+from ..terminal.output import print_indented, print_json, stdout
 from ..viewing.text_table import plain_table
 
 
@@ -19,7 +19,6 @@ def inventory(
     from ..planning.problem.problems import pose_problem
     from ..tasks import load_task
 
-    announce_compilation(quiet=as_json)
     posed = pose_problem(load_task(task, overrides or ()))
     report = posed.sized(length)
     if as_json:

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from ..terminal.options import AsJson, Output, Overrides, Quiet, TaskName
-from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout
 
 
 def learn(
@@ -23,7 +23,6 @@ def learn(
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    announce_compilation(quiet=quiet)
     from ..planning.learning import learn_macros
     from .plan.text import ProgressLine, print_lesson
 

@@ -11,7 +11,7 @@ from ..json_form import Key
 from ..tasks.imported import ImportedLimb
 from ..terminal.name_completion import names_of
 from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
-from ..terminal.output import announce_compilation, check_new, print_json, print_new
+from ..terminal.output import check_new, print_json, print_new
 from .commands import read_place
 
 if TYPE_CHECKING:
@@ -207,7 +207,6 @@ def _write_board(
     made = describe_board(data, written)
     following = f"clamber check {board_file}"
     if task_file is not None:
-        announce_compilation()
         climb = task_data(data, str(board_file), task_file, overrides)
         comment = "From the lowest stance that the rules allow to the top of the board beside it."
         write_atomically(task_file, toml_text(climb, comment))
@@ -241,8 +240,6 @@ def task(
             "has a robot, a board and rules of its own: edit them in the file", param_hint="--like"
         )
     check_new(output, force)
-    if like is None:
-        announce_compilation()
     from ..files import write_atomically
     from .starters import task_starter
 

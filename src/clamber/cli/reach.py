@@ -12,7 +12,7 @@ from rich.table import Table
 from ..shown_units import ShownUnits, units_of
 from ..terminal.live_line import LiveLine
 from ..terminal.options import Overrides, TaskName, Told, takes_options
-from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -50,7 +50,6 @@ def reach(
     from ..planning.reach.reach import choose_layer
 
     shown = choose_layer(loaded, layer)
-    announce_compilation(quiet=told.quiet)
     from ..planning.reach.reach import find_reach
 
     with FloodLine(stderr(), quiet=told.quiet, doing="seeing every stance") as line:

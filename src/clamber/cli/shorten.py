@@ -7,7 +7,7 @@ import typer
 
 from ..terminal.name_completion import names_of
 from ..terminal.options import Overrides, Told, takes_options
-from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout
 
 
 @takes_options
@@ -30,7 +30,6 @@ def shorten(
 ) -> None:
     """Make a plan that reaches its goal shorter, by search about it; every check of the task still holds."""
     check_writable(told.output)
-    announce_compilation(quiet=told.quiet)
     from ..planning.problem.plan_source import open_plan
     from ..planning.shorten import polish_plan
     from .plan.text import ProgressLine, print_result

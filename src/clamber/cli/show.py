@@ -9,7 +9,7 @@ import typer
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Output, Overrides
-from ..terminal.output import announce_compilation, check_writable, print_json, stdout
+from ..terminal.output import check_writable, print_json, stdout
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,6 @@ def show(
     """Draw a task, a plan or one step of it, a robot, a board or a ground (png, svg, pdf), or a plan in motion (gif, html, mp4)."""
     path = output or Path(f"{Path(thing).stem}.png")
     check_writable(path)
-    announce_compilation()
     from ..inspection.open_file import kind_of
     from ..planning.problem.plan_source import open_replay
     from ..viewing.alone import draw_alone, open_alone, shown_alone

@@ -15,7 +15,7 @@ from ..studies.library import study_titles
 from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Quiet, Resume, Store, Workers, takes_options
-from ..terminal.output import announce_compilation, print_indented, print_json, stderr, stdout
+from ..terminal.output import print_indented, print_json, stderr, stdout
 from ..terminal.worker_options import EndsLine, executor_of, keeping
 from ..viewing.text_table import plain_table
 
@@ -97,7 +97,6 @@ def study(
         if not (words.resume and site is not None and site.has(name, one))
     ]
     results: list[StudyResult] = []
-    announce_compilation(quiet=words.quiet)
     with StudyLine(stderr(), quiet=words.quiet) as line:
         try:
             for name, chosen in wanted:

@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 
 from ..terminal.options import Overrides, PlannerName, TaskName, takes_options
-from ..terminal.output import announce_compilation, print_json, stdout
+from ..terminal.output import print_json, stdout
 from ..terminal.worker_options import WorkerOptions
 from ..viewing.text_table import plain_table
 
@@ -59,9 +59,6 @@ def sweep(
     check_axes(axes)
     marks = [read_mark(text, axes) for text in varied.mark or ()]
     from ..planning.planners import accepts
-
-    if words.ray is None:
-        announce_compilation(quiet=words.quiet)
     from ..planning.sweep import run_sweep
 
     stated = {"max_evaluations": evaluations, "max_stances": stances}

@@ -10,7 +10,7 @@ from ..interrupts import answer
 from ..json_form import Count, Key
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides, takes_options
-from ..terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
     from ..viewing.browser.app import App
@@ -83,7 +83,6 @@ def view(
     from ..viewing.browser.app import LOOPBACK, App, check_viser
 
     check_viser()
-    announce_compilation()
     from ..viewing.browser.viewer_content import open_exhibit
 
     exhibit = open_exhibit(things, words.task, words.overrides or ())

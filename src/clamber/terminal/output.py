@@ -64,14 +64,18 @@ def print_indented(console: Console, words: str, indent: int = 2) -> None:
     console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
 
 
-def announce_compilation(*, quiet: bool = False) -> None:
-    """Tells on stderr of kernels that are compiled while the command runs, here or in its workers, and how far that is."""
-    from .. import kernel_cache
+def announce_compilation() -> None:
+    """Tells on stderr of kernels that are compiled while a command runs, here or in its workers, and how far that is."""
+    _command_ended.clear()
+    Thread(target=_await_kernels, daemon=True).start()
 
-    if not quiet:
-        kernel_cache.tell_no_cache()
-        _command_ended.clear()
-        Thread(target=_tell_compilation, args=(kernel_cache.cache_folder(),), daemon=True).start()
+
+def _await_kernels() -> None:
+    """Begin to tell once kernels are loaded: a command without any does not wait for their modules."""
+    while not _command_ended.wait(0.1):
+        cache = sys.modules.get("clamber.kernel_cache")
+        if cache is not None and hasattr(cache, "KernelCache"):  # the last of its names
+            _tell_compilation(cache.cache_folder())
 
 
 _command_ended: Final = Event()

@@ -10,7 +10,7 @@ import typer
 from rich.console import Console
 
 from ...terminal.options import takes_options
-from ...terminal.output import announce_compilation, stderr
+from ...terminal.output import stderr
 from ...terminal.worker_options import EndsLine
 from . import options as opt
 from .force import force, open_loop
@@ -162,7 +162,6 @@ def _compare(
     flaws = words.build_plant(words.seed, drawn=words.trials > 1)
     limb = words.build_limb(flaws, start)
     scenario = command(limb, flaws.control_rate)
-    announce_compilation(quiet=words.quiet)  # gains are matched by the laws themselves
     reference, at = reference_law(words.reference, words.kp, words.kd), match_pose(limb, scenario)
     entries = make_entries(limb, words.controllers or (), reference, words.match.value, at)
     with EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1) as line:

@@ -8,7 +8,6 @@ import typer
 from rich.console import Console
 
 from ...terminal.options import takes_options
-from ...terminal.output import announce_compilation
 from . import options as opt
 
 if TYPE_CHECKING:
@@ -84,7 +83,6 @@ def force(
 
     task = wall.build_task()
     flaws = words.build_plant(seed)
-    announce_compilation(quiet=files.quiet)
     limb = words.build_limb(flaws)
     result = run_force(limb, task, force_entries(limb, task, flaws, controllers or (), compensations or ()), flaws)
     files.tell(result, lambda console: print_force_result(console, result))
@@ -146,7 +144,6 @@ def open_loop(
     limb = words.build_limb(flaws)
     how = {"force": read_number("force", pull.force, "force")}
     how["direction"] = read_number("direction", pull.direction, "angle")
-    announce_compilation(quiet=files.quiet)
     transforms = pull.transforms or tuple(TRANSFORMS)
     result = compare_open_loop(limb, flaws, transforms, seconds=pull.seconds, renewed=pull.renewed, plant=plant, **how)
     files.tell(result, lambda console: print_open_loop(console, result))

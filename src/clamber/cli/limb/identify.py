@@ -10,7 +10,7 @@ from rich.console import Console
 
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings, takes_options
-from ...terminal.output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.output import check_writable, print_json, stdout
 from ...units import DEGREE
 from . import options as opt
 
@@ -101,7 +101,6 @@ def identify(
     mapping = words.mapping()
     known = Known.read(words.torque_constant, words.gear, words.gain)
     read = read_log(log, words.topic)
-    announce_compilation(quiet=words.as_json)
     result = identify_log(
         read,
         robot=words.robot,
@@ -234,7 +233,6 @@ def record(
     properties = read_flaws(named_flaws(flaws.value, chosen.robot), settings or ())
     if properties.upright:
         chosen = bench_limb(robot, limb, upright=True)
-    announce_compilation(quiet=quiet)
     log = record_log(chosen, properties, noise, output_encoder=sensors.output_encoder)
     write_log(log, output)
     summary = Recorded.of(log, output)

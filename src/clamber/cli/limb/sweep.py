@@ -13,7 +13,7 @@ from rich.console import Console
 
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Quiet, takes_options
-from ...terminal.output import announce_compilation, check_writable, print_json, stdout
+from ...terminal.output import check_writable, print_json, stdout
 from ...terminal.worker_options import WorkerOptions
 from . import options as opt
 
@@ -103,7 +103,6 @@ def sweep(
             recommended=gains is GainsChoice.recommended,
         )
     )
-    announce_compilation(quiet=words.quiet)
     with words.keeping("points") as batch:
         result = run_limb_sweep(bench, axes, opt.crew_of(words, batch))
     opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
@@ -231,7 +230,6 @@ def tune(
     plant = limb.build_plant()
     chosen = limb.build_limb(plant)
     laws = [] if controllers in (None, ["all"]) else list(controllers or ())
-    announce_compilation(quiet=words.quiet)
     with words.keeping("searches") as batch:
         result = find(chosen, laws, plant, robot=limb.robot, margin=margin, crew=opt.crew_of(words, batch))
     if save is not None:
@@ -332,7 +330,6 @@ def portrait(
 
     if folder is not None:
         make_folder(folder)
-    announce_compilation(quiet=quiet)
     matched = None if words.reference is None else read_law(words.reference)
     portraits = paint_portraits(
         () if laws == ["all"] else laws,

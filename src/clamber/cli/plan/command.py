@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from ...terminal.options import TaskName, takes_options
-from ...terminal.output import announce_compilation, print_json, stderr, stdout
+from ...terminal.output import print_json, stderr, stdout
 from ...terminal.worker_options import EndsLine, executor_of
 from .options import PlanOptions
 
@@ -30,7 +30,6 @@ def plan(
     from .openings import Seeker
 
     find_planner(words.chosen)
-    announce_compilation(quiet=words.quiet)
     if words.pareto is not None:
         from .front import front
 

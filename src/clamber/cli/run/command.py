@@ -8,7 +8,6 @@ import typer
 
 from ...terminal.name_completion import names_of
 from ...terminal.options import takes_options
-from ...terminal.output import announce_compilation
 from .options import RunOptions
 
 NOT_REPEATED = ("output", "save_plan", "report", "as_json", "quiet")
@@ -59,7 +58,6 @@ def run(
     (docs/climbing.md). A file of `-o` is a log (.mcap, .csv), an animation (.gif, .html, .mp4) or a picture (.png, .svg, .pdf).
     """
     words.check()
-    announce_compilation(quiet=words.quiet)
     from ...trials.work import open_work
     from .carried_out import carry_out
 

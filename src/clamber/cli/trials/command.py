@@ -18,7 +18,6 @@ from ...terminal.options import (
     Replan,
     takes_options,
 )
-from ...terminal.output import announce_compilation
 from ...terminal.worker_options import WorkerOptions
 
 
@@ -140,6 +139,5 @@ def trials(
     from .carried_out import try_out
 
     asked.check()
-    announce_compilation(quiet=words.quiet)
     named = [what, asked.against or what] if asked.compares else [what]
     try_out([open_work(each, asked.task, asked.overrides or ()) for each in named], asked, words)

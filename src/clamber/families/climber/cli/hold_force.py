@@ -7,7 +7,7 @@ import typer
 from ....errors import SpecError
 from ....terminal.name_completion import names_of
 from ....terminal.options import BOARD, ROBOT, AsJson, Flaws, FlawsChoice, Output, Settings
-from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....terminal.output import check_writable, print_json, stdout
 from ....viewing.text_table import plain_table
 
 
@@ -48,7 +48,6 @@ def hold_force(
     if not wanted > 0.0:
         raise SpecError("--force", "force", force, "must be more than 0 N")
     plant = read_flaws(named_flaws(flaws.value, chosen).with_changes(physics_rate=PHYSICS_RATE), settings or ())
-    announce_compilation(quiet=as_json)
     result = run_press(
         chosen, load_board(BOARD), plant, force=wanted, way=read_point("way", way, "length"), seconds=seconds
     )

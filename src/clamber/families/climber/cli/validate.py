@@ -12,7 +12,7 @@ from ....interrupts import answer
 from ....terminal.live_line import LiveLine
 from ....terminal.name_completion import names_of
 from ....terminal.options import CarriedOutIn, NoiseTexts, Overrides, Ray, Told, Workers, takes_options
-from ....terminal.output import announce_compilation, check_writable, print_json, stderr, stdout
+from ....terminal.output import check_writable, print_json, stderr, stdout
 from ....terminal.worker_options import executor_of
 from ....viewing.text_table import plain_table
 
@@ -100,7 +100,6 @@ def validate(
     Noise as in `clamber trials`. `-o` keeps the best plan so far, from the first rehearsal on; Ctrl-C ends with it.
     """
     check_writable(told.output)
-    announce_compilation(quiet=told.quiet)
     from ....terminal.compile_ahead import compile_ahead
     from ..trials.warm_up import CLIMBING
 

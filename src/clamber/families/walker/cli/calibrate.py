@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ....terminal.options import AsJson
-from ....terminal.output import announce_compilation, print_json, stdout
+from ....terminal.output import print_json, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -41,7 +41,6 @@ def calibrate(
         raise typer.BadParameter("must be on either side of 0 deg", param_hint="--least, --most")
     if published.step <= 0.0 or published.stroke <= 0.0:
         raise typer.BadParameter("must be more than 0", param_hint="--step, --stroke")
-    announce_compilation()
     found = fit_families(published, range(seeds))
     if as_json:
         print_json(found)

@@ -8,7 +8,7 @@ import typer
 
 from ....terminal.name_completion import names_of
 from ....terminal.options import AsJson, Output, takes_options
-from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....terminal.output import check_writable, print_json, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -75,7 +75,6 @@ def ditch(
     if not isinstance(made, WalkerRobot):
         raise SpecError(f"robot '{made.name}'", "family", made.name, "must be a two-frame walker")
     footing = Footing.of(made, margin=parse_quantity(margin, "length"))
-    announce_compilation()
     if crossed.width is None:
         _tell_widest(footing, not straight, as_json, output)
         return

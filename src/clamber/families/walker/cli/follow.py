@@ -11,7 +11,7 @@ from rich.console import Console
 from ....errors import FileError, SpecError
 from ....terminal.name_completion import names_of
 from ....terminal.options import AsJson, takes_options
-from ....terminal.output import announce_compilation, check_writable, print_json, stdout
+from ....terminal.output import check_writable, print_json, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -87,7 +87,6 @@ def follow(
     chosen = _load_robot_with_arm(robot)
     options = asked.options()
     tool_path = load_tool_path(path)
-    announce_compilation(quiet=as_json)
     run = follow_path(chosen, tool_path, options)
     _write_files(run, files)
     if as_json:

@@ -6,7 +6,7 @@ import typer
 
 from ....terminal.name_completion import names_of
 from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet
-from ....terminal.output import announce_compilation, print_json, stderr, stdout
+from ....terminal.output import print_json, stderr, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -60,7 +60,6 @@ def max_setting(
         return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed))
 
     opened(axis.values[0])  # what cannot be is told before anything walks
-    announce_compilation(quiet=quiet)
     found = find_most(axis.values, tried)
     if as_json:
         print_json(MaxSetting(walk, axis.key, found))
