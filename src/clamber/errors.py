@@ -3,6 +3,8 @@
 import difflib
 import unicodedata
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import ClassVar, dataclass_transform
 
 
 def printable(text: str) -> str:
@@ -41,26 +43,38 @@ class ClamberError(Exception):
     """Base of every error that Clamber raises for bad input."""
 
 
-class FileError(ClamberError):
+@dataclass_transform(eq_default=False)
+class StatedError(ClamberError):
+    """An error whose fields are its arguments, and whose text is `says` with them filled in."""
+
+    says: ClassVar[str]
+
+    def __init_subclass__(cls) -> None:
+        dataclass(eq=False, repr=False)(cls)
+
+    def __post_init__(self) -> None:
+        self.args = tuple(vars(self).values())
+
+    def __str__(self) -> str:
+        return self.says.format(**vars(self))
+
+
+class FileError(StatedError):
     """A file cannot be read or written as what it should be."""
 
-    def __init__(self, path: str, problem: str, allowed: str) -> None:
-        super().__init__(path, problem, allowed)
-        self.path, self.problem, self.allowed = path, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.problem}; {self.allowed}"
+    says = "{path}: {problem}; {allowed}"
+    path: str
+    problem: str
+    allowed: str
 
 
-class UnitError(ClamberError):
+class UnitError(StatedError):
     """A value is not a quantity of the dimension asked for."""
 
-    def __init__(self, value: object, problem: str, allowed: str) -> None:
-        super().__init__(value, problem, allowed)
-        self.value, self.problem, self.allowed = value, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.value!r} {self.problem}; {self.allowed}"
+    says = "{value!r} {problem}; {allowed}"
+    value: object
+    problem: str
+    allowed: str
 
 
 class SpecError(ClamberError):
@@ -126,38 +140,34 @@ def _short(value: object, limit: int = 120) -> str:
     return text if len(text) <= limit else text[: limit - 3] + "..."
 
 
-class PlannerError(ClamberError):
+class PlannerError(StatedError):
     """A planner can't work on a task as it is."""
 
-    def __init__(self, planner: str, task: str, problem: str) -> None:
-        super().__init__(planner, task, problem)
-        self.planner, self.task, self.problem = planner, task, problem
-
-    def __str__(self) -> str:
-        return f"the {self.planner} planner can't take task '{self.task}': {self.problem}"
+    says = "the {planner} planner can't take task '{task}': {problem}"
+    planner: str
+    task: str
+    problem: str
 
 
-class OptionError(ClamberError):
+class OptionError(StatedError):
     """What an option asks for can't be done: names the option, what is wrong, and what is allowed."""
 
-    def __init__(self, option: str, problem: str, allowed: str) -> None:
-        super().__init__(option, problem, allowed)
-        self.option, self.problem, self.allowed = option, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.option}: {self.problem}; {self.allowed}"
+    says = "{option}: {problem}; {allowed}"
+    option: str
+    problem: str
+    allowed: str
 
 
-class StartError(ClamberError):
+class StartError(StatedError):
     """The start stance of a task violates a hard check."""
 
-    def __init__(self, task: str, check: str, margin: float, meaning: str, short: str) -> None:
-        """Bind it; `short` is by how much, with its unit."""
-        super().__init__(task, check, margin, meaning, short)
-        self.task, self.check, self.margin, self.meaning, self.short = task, check, margin, meaning, short
-
-    def __str__(self) -> str:
-        return (
-            f"task '{self.task}', key 'start': the start stance violates the hard check '{self.check}' "
-            f"({self.meaning}) by {self.short}; move the body or the holds, or take '{self.check}' out of 'rules.hard'"
-        )
+    says = (
+        "task '{task}', key 'start': the start stance violates the hard check '{check}' "
+        "({meaning}) by {short}; move the body or the holds, or take '{check}' out of 'rules.hard'"
+    )
+    task: str
+    check: str
+    margin: float
+    meaning: str
+    short: str
+    """By how much, with its unit."""

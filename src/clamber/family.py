@@ -13,7 +13,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeVar, cast
 
-from .errors import ClamberError, describe_choices
+from .errors import StatedError, describe_choices
 from .extensions import ExtensionError, blamed, load_outside, outside
 
 if TYPE_CHECKING:
@@ -46,15 +46,12 @@ BUILT_IN: Final = {
 """Name in robot files -> module and name of the object, imported when the family is asked for."""
 
 
-class NotOfFamilyError(ClamberError):
+class NotOfFamilyError(StatedError):
     """A family has not what is asked of it."""
 
-    def __init__(self, title: str, thing: str) -> None:
-        super().__init__(title, thing)
-        self.title, self.thing = title, thing
-
-    def __str__(self) -> str:
-        return f"a {self.title} has no {self.thing}"
+    says = "a {title} has no {thing}"
+    title: str
+    thing: str
 
 
 Thing = TypeVar("Thing")

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Final
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from .errors import ClamberError, UnitError, describe_choices
+from .errors import StatedError, UnitError, describe_choices
 
 INCH: Final = 0.0254
 """One inch [m], exact."""
@@ -153,15 +153,13 @@ def read_quantity(raw: object, dimension: str) -> float:
     raise UnitError(raw, "lacks its unit", _suggestion(raw, dimension))
 
 
-class PointError(ClamberError):
+class PointError(StatedError):
     """A text that is no number or no pair of numbers: names the key, the text and what is allowed."""
 
-    def __init__(self, key: str, text: str, allowed: str) -> None:
-        super().__init__(key, text, allowed)
-        self.key, self.text, self.allowed = key, text, allowed
-
-    def __str__(self) -> str:
-        return f"{self.key} = {self.text}: {self.allowed}"
+    says = "{key} = {text}: {allowed}"
+    key: str
+    text: str
+    allowed: str
 
 
 def read_point(key: str, text: str, dimension: str = "length") -> tuple[float, float]:

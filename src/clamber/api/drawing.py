@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..family import family_of
 from ..inspection.open_file import kind_of
 from ..limb_bench.pictures.comparison import draw_comparison
@@ -24,15 +24,11 @@ from ..viewing.reach_plot import draw_reach
 from ..viewing.sweep_plot import draw_sweep
 
 
-class NotDrawnError(ClamberError):
+class NotDrawnError(StatedError):
     """A thing that nothing draws: names its type."""
 
-    def __init__(self, kind: str) -> None:
-        super().__init__(kind)
-        self.kind = kind
-
-    def __str__(self) -> str:
-        return f"a {self.kind} cannot be drawn; robots, worlds, tasks, plans, runs and what other functions answer can; of a walk, its run"
+    says = "a {kind} cannot be drawn; robots, worlds, tasks, plans, runs and what other functions answer can; of a walk, its run"
+    kind: str
 
 
 def draw(what: Any, path: str | Path, *, step: int | None = None, layer: str | None = None) -> Path:

@@ -9,7 +9,7 @@ from statistics import median
 from threading import Event
 from typing import Any, Final
 
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..files import Document
 from ..jobs import Executor, LocalProcesses, map_items
 from ..jobs.batch import Progress
@@ -116,15 +116,11 @@ def run_cases(
     return {label: Trials(*zip(*row, strict=True)) for label, row in zip(cases, rows, strict=True)}
 
 
-class TrialError(ClamberError):
+class TrialError(StatedError):
     """A trial ended without an answer."""
 
-    def __init__(self, problem: str) -> None:
-        super().__init__(problem)
-        self.problem = problem
-
-    def __str__(self) -> str:
-        return f"a trial failed: {self.problem}"
+    says = "a trial failed: {problem}"
+    problem: str
 
 
 def run_trial(item: Json) -> Json:

@@ -6,7 +6,7 @@ from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..types import Floats, Records
 from .kinematics import FRAME, accelerate, fill_inertia, fill_jacobian, place_chain, place_tips
 from .records import AXES, JOINT, ROOT
@@ -17,15 +17,14 @@ SMALLEST_SHARE: Final = 1e-6
 """A joint may not count for less than this of the largest."""
 
 
-class ChainError(ClamberError):
+class ChainError(StatedError):
     """A chain that cannot be: names the joint, the field, the value and what is allowed."""
 
-    def __init__(self, chain: str, key: str, value: object, allowed: str) -> None:
-        super().__init__(chain, key, value, allowed)
-        self.chain, self.key, self.value, self.allowed = chain, key, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.chain}: {self.key} = {self.value}: {self.allowed}"
+    says = "{chain}: {key} = {value}: {allowed}"
+    chain: str
+    key: str
+    value: object
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -6,7 +6,7 @@ from typing import Any, Final, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..types import Floats, Records
 from .chain import Chain
 from .drive import ARRAYS, CONTROLLER_BUFFERS, JOINTS, LAWS, LENGTH, MEMORY, SIDE, drive_packed
@@ -16,41 +16,34 @@ from .law_state import LINES, SQUARES, line_length
 from .records import AIM, AXES, JOINT, REPORT, ROOT, SETTINGS
 
 
-class MeasurementError(ClamberError):
+class MeasurementError(StatedError):
     """A measurement that is not a finite number: names the limb of the batch, the quantity and the value."""
 
-    def __init__(self, chain: str, quantity: str, value: float, limb: int) -> None:
-        super().__init__(chain, quantity, value, limb)
-        self.chain, self.quantity, self.value, self.limb = chain, quantity, value, limb
-
-    def __str__(self) -> str:
-        return (
-            f"{self.chain}, limb {self.limb} of the batch: measured {self.quantity} is {self.value}; it must be finite"
-        )
+    says = "{chain}, limb {limb} of the batch: measured {quantity} is {value}; it must be finite"
+    chain: str
+    quantity: str
+    value: float
+    limb: int
 
 
-class AimError(ClamberError):
+class AimError(StatedError):
     """An aim that is not a finite number: names the limb of the batch, the quantity and the value."""
 
-    def __init__(self, chain: str, quantity: str, value: float, limb: int) -> None:
-        super().__init__(chain, quantity, value, limb)
-        self.chain, self.quantity, self.value, self.limb = chain, quantity, value, limb
-
-    def __str__(self) -> str:
-        return (
-            f"{self.chain}, limb {self.limb} of the batch: the aim's {self.quantity} is {self.value}; it must be finite"
-        )
+    says = "{chain}, limb {limb} of the batch: the aim's {quantity} is {value}; it must be finite"
+    chain: str
+    quantity: str
+    value: float
+    limb: int
 
 
-class ShapeError(ClamberError):
+class ShapeError(StatedError):
     """An array of the wrong shape or kind: names the chain, the array, what it is and what is allowed."""
 
-    def __init__(self, chain: str, array: str, value: str, allowed: str) -> None:
-        super().__init__(chain, array, value, allowed)
-        self.chain, self.array, self.value, self.allowed = chain, array, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.chain}: {self.array} {self.value}: {self.allowed}"
+    says = "{chain}: {array} {value}: {allowed}"
+    chain: str
+    array: str
+    value: str
+    allowed: str
 
 
 FLOAT: Final = np.dtype(np.float64)

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..errors import ClamberError, UnknownNameError, describe_choices
+from ..errors import StatedError, UnknownNameError, describe_choices
 from ..extensions import outside
 from ..types import Floats, Records
 from .chain import Chain, rotation
@@ -82,15 +82,14 @@ def law_names() -> tuple[str, ...]:
     return (*LAWS, *(name for name in outside("controllers") if name not in LAWS))
 
 
-class LawError(ClamberError):
+class LawError(StatedError):
     """A setting of a law that cannot be used: names law, key, value and what is allowed."""
 
-    def __init__(self, law: str, key: str, value: object, allowed: str) -> None:
-        super().__init__(law, key, value, allowed)
-        self.law, self.key, self.value, self.allowed = law, key, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.law}: {self.key} = {self.value}: {self.allowed}"
+    says = "{law}: {key} = {value}: {allowed}"
+    law: str
+    key: str
+    value: object
+    allowed: str
 
 
 PerAxis = float | tuple[float, ...]

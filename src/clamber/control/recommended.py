@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..files import check_schema, read_toml, write_atomically
 from ..json_form import Jsonable
 from ..regular_files import is_there
@@ -19,15 +19,13 @@ COMMENT: Final = (
 )
 
 
-class RecommendationError(ClamberError):
+class RecommendationError(StatedError):
     """Gains are asked for that nobody found, or a file of them is wrong: names the file, what was asked for, what there is."""
 
-    def __init__(self, path: str, wanted: str, allowed: str) -> None:
-        super().__init__(path, wanted, allowed)
-        self.path, self.wanted, self.allowed = path, wanted, allowed
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.wanted}; {self.allowed}"
+    says = "{path}: {wanted}; {allowed}"
+    path: str
+    wanted: str
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Final
 
-from ..errors import ClamberError, how_to_install
+from ..errors import StatedError, how_to_install
 from ..types import Json
 from .executor import MOST_TRIES, End
 from .release import difference, release
@@ -33,15 +33,13 @@ UNAUTHENTICATED: Final = re.compile("Unauthenticated|AuthToken|AuthenticationErr
 ALLOWED: Final = "write the HOST:PORT that `ray start --head` printed, such as 10.0.0.5:6379"
 
 
-class ClusterError(ClamberError):
+class ClusterError(StatedError):
     """There is no cluster to run on, it is no good for us, or it was lost."""
 
-    def __init__(self, address: str, problem: str, allowed: str) -> None:
-        super().__init__(address, problem, allowed)
-        self.address, self.problem, self.allowed = address, problem, allowed
-
-    def __str__(self) -> str:
-        return f"--ray {self.address}: {self.problem}; {self.allowed}"
+    says = "--ray {address}: {problem}; {allowed}"
+    address: str
+    problem: str
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True)

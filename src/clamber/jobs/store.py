@@ -11,7 +11,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
 
-from ..errors import ClamberError, printable
+from ..errors import StatedError, printable
 from ..files import parse_json
 from ..regular_files import check_target
 from ..types import Json
@@ -24,15 +24,13 @@ PATIENCE = 120.0
 """The longest wait for that at the end of an item [s]: what took minutes is not to be lost to somebody who looks into the file."""
 
 
-class StoreError(ClamberError):
+class StoreError(StatedError):
     """A file can't be the store of this batch."""
 
-    def __init__(self, path: str, problem: str, allowed: str) -> None:
-        super().__init__(path, problem, allowed)
-        self.path, self.problem, self.allowed = path, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.path}: {self.problem}; {self.allowed}"
+    says = "{path}: {problem}; {allowed}"
+    path: str
+    problem: str
+    allowed: str
 
 
 class Store:

@@ -6,22 +6,20 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import ClamberError
+from ..errors import ClamberError, StatedError
 from ..family import families
 from ..sim.bench_limb import BenchLimb, GearedRobot
 from ..tasks.robots import build_robot, family_in, read_robot
 from ..units import PointError
 
 
-class StartError(ClamberError):
+class StartError(StatedError):
     """A start of the limb that cannot be: names the limb, the place and why."""
 
-    def __init__(self, limb: str, place: tuple[float, float], problem: str) -> None:
-        super().__init__(limb, place, problem)
-        self.limb, self.place, self.problem = limb, place, problem
-
-    def __str__(self) -> str:
-        return f"{self.limb}: start ({self.place[0]:g}, {self.place[1]:g}) m {self.problem}"
+    says = "{limb}: start ({place[0]:g}, {place[1]:g}) m {problem}"
+    limb: str
+    place: tuple[float, float]
+    problem: str
 
 
 LEAST_SIGMA = 0.01

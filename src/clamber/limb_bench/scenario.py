@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..control.controller import still_aim
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..json_form import HIDDEN, Jsonable, Key, in_json
 from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws, Push, Wall
@@ -23,15 +23,14 @@ TURN: Final = 0.3
 """What lies this near to the start or end of the slide counts neither as standing nor as sliding [s]."""
 
 
-class ScenarioError(ClamberError):
+class ScenarioError(StatedError):
     """A command that the limb cannot be given: names the scenario, the key, the value and what is allowed."""
 
-    def __init__(self, scenario: str, key: str, value: object, allowed: str) -> None:
-        super().__init__(scenario, key, value, allowed)
-        self.scenario, self.key, self.value, self.allowed = scenario, key, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.scenario}: {self.key} = {self.value}: {self.allowed}"
+    says = "{scenario}: {key} = {value}: {allowed}"
+    scenario: str
+    key: str
+    value: object
+    allowed: str
 
 
 LAST: Final = "Place of the tip that is asked for at the end [m]."

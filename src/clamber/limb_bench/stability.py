@@ -23,7 +23,7 @@ from scipy.linalg import expm
 from ..control.chain import Chain
 from ..control.controller import Controller, still_aim
 from ..control.law_settings import LawSettings, PerAxis
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..execution.closed_loop import close_loop
 from ..execution.trace import LimbTrace
 from ..sim.bench_limb import BenchLimb
@@ -43,15 +43,12 @@ LEAST: Final = 2.0**-40
 MOST: Final = 2.0**40
 
 
-class LimitError(ClamberError):
+class LimitError(StatedError):
     """A loop without a limit to find: names the law and what it does instead."""
 
-    def __init__(self, law: str, problem: str) -> None:
-        super().__init__(law, problem)
-        self.law, self.problem = law, problem
-
-    def __str__(self) -> str:
-        return f"{self.law}: {self.problem}"
+    says = "{law}: {problem}"
+    law: str
+    problem: str
 
 
 def scaled_gains(settings: LawSettings, factor: float) -> LawSettings:

@@ -9,7 +9,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..errors import ClamberError, UnknownNameError
+from ..errors import StatedError, UnknownNameError
 from ..sim.bench_limb import BenchLimb
 from ..sim.flaw_texts import DIMENSIONS as FLAWS
 from ..sim.flaw_texts import WHOLE, read_flaw
@@ -32,15 +32,13 @@ PEAK: Final = "peak_to_peak"
 """Of the true tip at the end of the rest; the one measure that is no field of `Measures`."""
 
 
-class SweepKeyError(ClamberError):
+class SweepKeyError(StatedError):
     """Something is to vary that cannot: names the key, its value and what is allowed."""
 
-    def __init__(self, key: str, value: object, allowed: str) -> None:
-        super().__init__(key, value, allowed)
-        self.key, self.value, self.allowed = key, value, allowed
-
-    def __str__(self) -> str:
-        return f"--vary {self.key} = {self.value}: {self.allowed}"
+    says = "--vary {key} = {value}: {allowed}"
+    key: str
+    value: object
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -17,7 +17,7 @@ import numpy as np
 
 from ..control.law_settings import LAWS, LawSettings
 from ..control.recommended import Recommended
-from ..errors import ClamberError
+from ..errors import StatedError
 from ..jobs import Outcome, read_result
 from ..json_form import Jsonable, Key, in_json
 from ..sim.bench_limb import BenchLimb
@@ -50,15 +50,13 @@ LATER: Final = 11.0
 """From when on those must be still [s]: a quarter of the gains may take longer to arrive, which is no limit cycle."""
 
 
-class TuningError(ClamberError):
+class TuningError(StatedError):
     """A tuning that cannot be: names the law or the key, the problem and what is allowed."""
 
-    def __init__(self, what: str, problem: str, allowed: str) -> None:
-        super().__init__(what, problem, allowed)
-        self.what, self.problem, self.allowed = what, problem, allowed
-
-    def __str__(self) -> str:
-        return f"{self.what}: {self.problem}; {self.allowed}"
+    says = "{what}: {problem}; {allowed}"
+    what: str
+    problem: str
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import fields, replace
 from typing import Any, Final, Self
 
-from ..errors import ClamberError, describe_choices
+from ..errors import StatedError, describe_choices
 
 MOST_RATE: Final = 1e5
 """Of control and of simulation [Hz]: a second of it takes half a minute then, and no contact here moves faster."""
@@ -15,15 +15,13 @@ MOST_SEED: Final = 2**62
 """Of what is left to chance: kernels draw by 63 bits."""
 
 
-class PlantError(ClamberError):
+class PlantError(StatedError):
     """A property of a plant that cannot be: names the key, the value and what is allowed."""
 
-    def __init__(self, key: str, value: object, allowed: str) -> None:
-        super().__init__(key, value, allowed)
-        self.key, self.value, self.allowed = key, value, allowed
-
-    def __str__(self) -> str:
-        return f"plant: {self.key} = {self.value}: {self.allowed}"
+    says = "plant: {key} = {value}: {allowed}"
+    key: str
+    value: object
+    allowed: str
 
 
 def check_finite(owner: object, names: Iterable[str], prefix: str = "") -> None:

@@ -27,11 +27,7 @@ if TYPE_CHECKING:  # loads what only commands need
 class NoPlanError(PlannerError):
     """The planner found no plan that can be carried out."""
 
-    def __init__(self, planner: str, task: str, problem: str) -> None:
-        super().__init__(planner, task, problem)
-
-    def __str__(self) -> str:
-        return f"no plan for '{self.task}' {self.problem}; nothing has moved"
+    says = "no plan for '{task}' {problem}; nothing has moved"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

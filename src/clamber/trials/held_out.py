@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from ..errors import ClamberError
+from ..errors import StatedError
 
 FIRST_HELD_OUT: Final = 1_000_006_000
 """From here on. Every seed below is a training seed, whether it has been used or not; the five thousand from 1 000 000 000 on
@@ -11,15 +11,13 @@ were held out until false alarms of fault detection were found among the first o
 until misses among them were looked at."""
 
 
-class HeldOutError(ClamberError):
+class HeldOutError(StatedError):
     """Seeds are used for what they are not meant for."""
 
-    def __init__(self, first: int, last: int, problem: str) -> None:
-        super().__init__(first, last, problem)
-        self.first, self.last, self.problem = first, last, problem
-
-    def __str__(self) -> str:
-        return f"seeds {self.first} to {self.last} {self.problem}"
+    says = "seeds {first} to {last} {problem}"
+    first: int
+    last: int
+    problem: str
 
 
 def are_held_out(seeds: Sequence[int]) -> bool:

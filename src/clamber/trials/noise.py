@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-from ..errors import ClamberError, UnitError, describe_choices
+from ..errors import StatedError, UnitError, describe_choices
 from ..units import DEGREE, parse_quantity
 
 SETS: Final = ("usual", "none")
@@ -13,15 +13,13 @@ SHOWN: Final = {"length": ("mm", 1e-3), "angle": ("deg", DEGREE), "ratio": ("%",
 """Dimension -> the unit in which it is usually shown, and that in SI."""
 
 
-class NoiseError(ClamberError):
+class NoiseError(StatedError):
     """A range that cannot be: names the key, the value and what is allowed."""
 
-    def __init__(self, key: str, value: object, allowed: str) -> None:
-        super().__init__(key, value, allowed)
-        self.key, self.value, self.allowed = key, value, allowed
-
-    def __str__(self) -> str:
-        return f"noise: {self.key} = {self.value}: {self.allowed}"
+    says = "noise: {key} = {value}: {allowed}"
+    key: str
+    value: object
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

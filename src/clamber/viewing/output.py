@@ -11,7 +11,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from PIL import Image
 
-from ..errors import ClamberError, describe_choices, how_to_install
+from ..errors import ClamberError, StatedError, describe_choices, how_to_install
 from ..files import write_atomically
 from .style import styled
 
@@ -21,12 +21,11 @@ DPI = 150
 """Dots per inch of still pictures."""
 
 
-class SuffixError(ClamberError):
+class SuffixError(StatedError):
     """A picture's file name says no format that can be written."""
 
-    def __init__(self, path: str, allowed: tuple[str, ...]) -> None:
-        super().__init__(path, allowed)
-        self.path, self.allowed = path, allowed
+    path: str
+    allowed: tuple[str, ...]
 
     def __str__(self) -> str:
         suffix = Path(self.path).suffix
@@ -48,15 +47,12 @@ class MissingExtraError(ClamberError):
         )
 
 
-class StepError(ClamberError):
+class StepError(StatedError):
     """A step is asked for that the replay does not have."""
 
-    def __init__(self, step: int, steps: int) -> None:
-        super().__init__(step, steps)
-        self.step, self.steps = step, steps
-
-    def __str__(self) -> str:
-        return f"step = {self.step}: the plan has no such step; allowed are 0 (the start) to {self.steps}"
+    says = "step = {step}: the plan has no such step; allowed are 0 (the start) to {steps}"
+    step: int
+    steps: int
 
 
 def check_suffix(path: str | Path, allowed: Iterable[str]) -> str:

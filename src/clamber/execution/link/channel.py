@@ -10,7 +10,7 @@ from collections import deque
 from dataclasses import dataclass
 from typing import Final, Literal
 
-from ...errors import ClamberError
+from ...errors import StatedError
 from .messages import Inbox, Kind, Message, frame
 
 PIECE: Final = 65536
@@ -21,15 +21,13 @@ _TCP: Final = re.compile(r"tcp://(127\.\d{1,3}\.\d{1,3}\.\d{1,3}|localhost):(\d{
 ALLOWED: Final = "state tcp://127.0.0.1:PORT or unix:PATH; plants are driven on their own machine only"
 
 
-class LinkError(ClamberError):
+class LinkError(StatedError):
     """There is no link to a plant at an address, or none can be made there."""
 
-    def __init__(self, address: str, problem: str, allowed: str) -> None:
-        super().__init__(address, problem, allowed)
-        self.address, self.problem, self.allowed = address, problem, allowed
-
-    def __str__(self) -> str:
-        return f"plant at {self.address}: {self.problem}; {self.allowed}"
+    says = "plant at {address}: {problem}; {allowed}"
+    address: str
+    problem: str
+    allowed: str
 
 
 class ConnectionEndedError(Exception):

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from ...errors import ClamberError
+from ...errors import StatedError
 from ...types import Floats, Ints
 
 MAGIC: Final = b"CLMB"
@@ -71,15 +71,13 @@ STOPS: Final = {
 """In words."""
 
 
-class MessageError(ClamberError):
+class MessageError(StatedError):
     """Bytes are no message that may stand where they stand."""
 
-    def __init__(self, problem: str, value: object, allowed: str) -> None:
-        super().__init__(problem, value, allowed)
-        self.problem, self.value, self.allowed = problem, value, allowed
-
-    def __str__(self) -> str:
-        return f"message: {self.problem} is {self.value}; {self.allowed}"
+    says = "message: {problem} is {value}; {allowed}"
+    problem: str
+    value: object
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True)

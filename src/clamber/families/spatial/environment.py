@@ -14,7 +14,7 @@ import numpy as np
 from gymnasium import spaces
 
 from ...control.whole_body.tree import State
-from ...errors import ClamberError
+from ...errors import StatedError
 from ...planning.problem.plan import Plan
 from ...planning.problem.plan_source import open_plan
 from ...tasks import load_task
@@ -284,15 +284,11 @@ def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tup
     return task, found_plan(task, Conditions(), RunEvents(), seed=0) if plan is None else plan
 
 
-class NotInSpaceError(ClamberError):
+class NotInSpaceError(StatedError):
     """The task is of another family."""
 
-    def __init__(self, task: str) -> None:
-        super().__init__(task)
-        self.task = task
-
-    def __str__(self) -> str:
-        return f"task '{self.task}': environments are of robots in space, such as 'wall-gripper' or 'stones-quadruped'"
+    says = "task '{task}': environments are of robots in space, such as 'wall-gripper' or 'stones-quadruped'"
+    task: str
 
 
 def register() -> None:

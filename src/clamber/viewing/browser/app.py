@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
-from ...errors import ClamberError, how_to_install
+from ...errors import ClamberError, StatedError, how_to_install
 from ...family import family_of
 from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
@@ -43,15 +43,13 @@ class MissingViserError(ClamberError):
         return f"the viewer needs the package 'viser', which is not installed: {how_to_install('view')}"
 
 
-class PortError(ClamberError):
+class PortError(StatedError):
     """The viewer cannot listen where it is asked to."""
 
-    def __init__(self, host: str, port: int, why: str) -> None:
-        super().__init__(host, port, why)
-        self.host, self.port, self.why = host, port, why
-
-    def __str__(self) -> str:
-        return f"cannot listen on {self.host}, port {self.port}: {self.why}; name another with --port, or none for any that is free"
+    says = "cannot listen on {host}, port {port}: {why}; name another with --port, or none for any that is free"
+    host: str
+    port: int
+    why: str
 
 
 def check_viser() -> None:

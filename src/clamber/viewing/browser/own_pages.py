@@ -12,7 +12,7 @@ from typing import Any, Final
 from unittest.mock import patch
 from urllib.parse import parse_qs, urlsplit
 
-from ...errors import ClamberError, how_to_install
+from ...errors import StatedError, how_to_install
 
 LOOPBACK_NAMES: Final = ("127.0.0.1", "localhost", "[::1]")
 TITLE: Final = b"<title>Viser</title>"
@@ -21,12 +21,10 @@ PATIENCE: Final = 10.0
 """For the viewer's own server to answer [s]."""
 
 
-class UnguardedError(ClamberError):
+class UnguardedError(StatedError):
     """The viewer's server would answer anybody, or nobody: viser or websockets have changed."""
 
-    def __init__(self, why: str) -> None:
-        super().__init__(why)
-        self.why = why
+    why: str
 
     def __str__(self) -> str:
         return f"the viewer is not started, for {self.why}; install viser and websockets by {how_to_install('view')}"

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ....errors import ClamberError
+from ....errors import StatedError
 from ....jobs import Executor, map_items, read_result
 from ....sim.limb_flaws import LimbFlaws
 from ....tasks import load_task
@@ -36,15 +36,13 @@ WEIGHT: Final = 0.1
 """Likewise as parts of what they are believed to be [-]."""
 
 
-class RungError(ClamberError):
+class RungError(StatedError):
     """A trial of a rung that raised, or whose worker died."""
 
-    def __init__(self, control: str, seed: int, error: str) -> None:
-        super().__init__(control, seed, error)
-        self.control, self.seed, self.error = control, seed, error
-
-    def __str__(self) -> str:
-        return f"a rung with {self.control}, seed {self.seed}: {self.error}"
+    says = "a rung with {control}, seed {seed}: {error}"
+    control: str
+    seed: int
+    error: str
 
 
 @dataclass(frozen=True, slots=True)

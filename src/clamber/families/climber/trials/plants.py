@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Final
 
-from ....errors import ClamberError, describe_choices
+from ....errors import StatedError, describe_choices
 from ....execution.hardware import WiredClimber
 from ....execution.link.channel import LinkError, read_address
 from ....execution.link.client import RemoteHardware
@@ -23,12 +23,10 @@ HERE: Final = ("torques", "volts")
 """Plants in this process: torques in and angles out, or through simulated amplifiers and counters."""
 
 
-class PlantChoiceError(ClamberError):
+class PlantChoiceError(StatedError):
     """A plant that is neither one of ours nor an address."""
 
-    def __init__(self, text: str) -> None:
-        super().__init__(text)
-        self.text = text
+    text: str
 
     def __str__(self) -> str:
         return f"no plant is called {self.text!r}; there are {describe_choices(self.text, HERE)}, or the address of a server"

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ....errors import ClamberError
+from ....errors import StatedError
 from ....types import Floats
 from .arcs import COLUMNS, MOST_ARCS, ROOM
 from .crossing import SIDES, balance_curves, widest_map
@@ -79,15 +79,13 @@ class Footing:
         return float(((sides[:, 0] * off[:, 1] - sides[:, 1] * off[:, 0]) / np.hypot(*sides.T)).min())
 
 
-class FootingError(ClamberError):
+class FootingError(StatedError):
     """A width, distance, margin or guard that means nothing."""
 
-    def __init__(self, what: str, value: float, allowed: str = "finite and 0 or more") -> None:
-        super().__init__(what, value, allowed)
-        self.what, self.value, self.allowed = what, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.what} = {self.value:.6g}: must be {self.allowed}"
+    says = "{what} = {value:.6g}: must be {allowed}"
+    what: str
+    value: float
+    allowed: str = "finite and 0 or more"
 
 
 def ditch_map(footing: Footing, thetas: npt.ArrayLike, directions: npt.ArrayLike, *, aside: bool = True) -> Floats:

@@ -5,7 +5,7 @@ from typing import Final, Literal
 import numpy as np
 
 from .....control.quintic import quintic_share
-from .....errors import ClamberError
+from .....errors import StatedError
 from .....types import Floats
 from .planted_feet import Support
 from .tool_chain import POSE
@@ -22,12 +22,11 @@ SUPPORT: Final[dict[Freedoms, Support]] = {"arm": "delta", "height": "delta", "l
 """Set -> the frame that has to stand for it: the plate slides and turns only while the Y-frame does."""
 
 
-class FreedomsError(ClamberError):
+class FreedomsError(StatedError):
     """No set has so many degrees of freedom."""
 
-    def __init__(self, dof: int, allowed: tuple[int, ...]) -> None:
-        super().__init__(dof, allowed)
-        self.dof, self.allowed = dof, allowed
+    dof: int
+    allowed: tuple[int, ...]
 
     def __str__(self) -> str:
         return f"no set has {self.dof} degrees of freedom; with this arm there are {', '.join(map(str, self.allowed))}"

@@ -5,7 +5,7 @@ from typing import Final, Literal
 
 import numpy as np
 
-from .....errors import ClamberError
+from .....errors import StatedError
 from .....types import Floats, Records
 from ...robot import FRAMES, WalkerRobot
 from .arm_moment import arm_moment
@@ -52,15 +52,13 @@ PLANTED_FEET: Final = np.dtype(
 """What the kernels of `plate_bounds` read."""
 
 
-class LimitError(ClamberError):
+class LimitError(StatedError):
     """A stance that the robot cannot have: names what it breaks, by how much, and what is allowed."""
 
-    def __init__(self, what: str, value: float, allowed: str) -> None:
-        super().__init__(what, value, allowed)
-        self.what, self.value, self.allowed = what, value, allowed
-
-    def __str__(self) -> str:
-        return f"the {self.what} is {self.value:.6g}; {self.allowed}"
+    says = "the {what} is {value:.6g}; {allowed}"
+    what: str
+    value: float
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -6,7 +6,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from .....errors import ClamberError
+from .....errors import StatedError
 from .....types import Floats
 from ...robot import WalkerRobot
 from .planted_feet import ACTUATOR, BALANCE, LEG, PlantedFeet
@@ -14,15 +14,13 @@ from .planted_feet import ACTUATOR, BALANCE, LEG, PlantedFeet
 Form = Literal["right", "as printed"]
 
 
-class CooperationError(ClamberError):
+class CooperationError(StatedError):
     """A setting of the law that cannot be: names it, its value, what is allowed."""
 
-    def __init__(self, name: str, value: object, allowed: str) -> None:
-        super().__init__(name, value, allowed)
-        self.name, self.value, self.allowed = name, value, allowed
-
-    def __str__(self) -> str:
-        return f"{self.name} = {self.value}: {self.allowed}"
+    says = "{name} = {value}: {allowed}"
+    name: str
+    value: object
+    allowed: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
