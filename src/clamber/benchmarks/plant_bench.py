@@ -12,7 +12,7 @@ import numpy as np
 from ..execution.hardware import Hardware, Reading, WiredClimber
 from ..execution.link.channel import read_address
 from ..execution.link.client import RemoteHardware
-from ..execution.plant import PlantStoppedError
+from ..execution.plant import PlantLayer, PlantStoppedError
 from ..execution.posture_guard import PostureGuard
 from ..execution.sequencer import Sequencer
 from ..families.climber.execution.climb_trace import TracedClimber
@@ -72,7 +72,7 @@ def gait_of(task: LimbedTask) -> Plan:
     return Plan.of_codes(task, [thesis_code(task, number) for number in GAIT])
 
 
-class TimedHardware:
+class TimedHardware(PlantLayer[Hardware, Floats]):
     """Hardware whose steps are timed.
 
     Args:
@@ -80,7 +80,7 @@ class TimedHardware:
     """
 
     def __init__(self, hardware: Hardware) -> None:
-        self.hardware, self.period = hardware, hardware.period
+        super().__init__(hardware)
         self.ends: list[float] = []
         """When each step ended [s]."""
         self.took: list[float] = []
@@ -88,33 +88,25 @@ class TimedHardware:
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
-        self.hardware.reset(start)
+        self.plant.reset(start)
 
     def sense(self) -> Reading:
         """See `Hardware`."""
-        return self.hardware.sense()
+        return self.plant.sense()
 
     def actuate(self, commands: Floats) -> None:
         """See `Hardware`."""
-        self.hardware.actuate(commands)
-
-    def pause(self) -> None:
-        """See `Hardware`."""
-        self.hardware.pause()
+        self.plant.actuate(commands)
 
     def step(self) -> None:
         """See `Hardware`."""
         began = time.perf_counter()
-        self.hardware.step()
+        self.plant.step()
         self.ends.append(time.perf_counter())
         self.took.append(self.ends[-1] - began)
 
-    def truth(self) -> Floats:
-        """See `Hardware`."""
-        return self.hardware.truth()
 
-
-class StoppingHardware:
+class StoppingHardware(PlantLayer[Hardware, Floats]):
     """Hardware that is taken over by its guard at some tick, as a server does.
 
     Args:
@@ -124,13 +116,14 @@ class StoppingHardware:
     """
 
     def __init__(self, hardware: Hardware, guard: PostureGuard, at: int) -> None:
-        self.hardware, self.guard, self.at, self.period = hardware, guard, at, hardware.period
+        super().__init__(hardware)
+        self.guard, self.at = guard, at
         self._reading, self._commands = Reading(np.zeros(0, np.int32), 0), np.zeros(0)
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
-        self.hardware.reset(start)
-        self._reading = self.hardware.sense()
+        self.plant.reset(start)
+        self._reading = self.plant.sense()
 
     def sense(self) -> Reading:
         """See `Hardware`."""
@@ -140,10 +133,6 @@ class StoppingHardware:
         """See `Hardware`."""
         self._commands = commands
 
-    def pause(self) -> None:
-        """See `Hardware`."""
-        self.hardware.pause()
-
     def step(self) -> None:
         """See `Hardware`.
 
@@ -152,13 +141,9 @@ class StoppingHardware:
         """
         if self._reading.tick >= self.at:
             raise PlantStoppedError("its time has come")
-        self.hardware.actuate(self._commands)
-        self.hardware.step()
-        self._reading = self.hardware.sense()
-
-    def truth(self) -> Floats:
-        """See `Hardware`."""
-        return self.hardware.truth()
+        self.plant.actuate(self._commands)
+        self.plant.step()
+        self._reading = self.plant.sense()
 
     def hold(self, seconds: float, *, power: bool = True) -> float:
         """Let the guard hold, or nobody, and tell how far the body has truly moved [m]."""
@@ -166,9 +151,9 @@ class StoppingHardware:
         self.guard.hold(self._reading, self._commands)
         for _ in range(round(seconds / self.period)):
             commands = self.guard.commands(self._reading)
-            self.hardware.actuate(commands if power else np.zeros_like(commands))
-            self.hardware.step()
-            self._reading = self.hardware.sense()
+            self.plant.actuate(commands if power else np.zeros_like(commands))
+            self.plant.step()
+            self._reading = self.plant.sense()
         return float(np.hypot(*(self.truth()[:2] - before)))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from ..types import Floats, Ints
 from .fault import Fault, Injector
 from .hardware import Hardware, Reading
-from .plant import BodyPlant, BodySensed, BodyTruth, LimbPlant, Sensed, Truth
+from .plant import BodyPlant, BodySensed, BodyTruth, LimbPlant, PlantLayer, Sensed, Truth
 from .posture_guard import JointHold, PostureGuard
 from .wiring import LOST_COUNT
 
@@ -59,7 +59,7 @@ class OwnHold:
         return self._law.torques(self._posture, fed, q, qd)
 
 
-class FaultyBody:
+class FaultyBody(PlantLayer[BodyPlant, BodyTruth | None]):
     """A climber with a fault; a `BodyPlant`.
 
     Args:
@@ -69,7 +69,7 @@ class FaultyBody:
     """
 
     def __init__(self, plant: BodyPlant, fault: Fault, inertias: Floats) -> None:
-        self.plant, self.period = plant, plant.period
+        super().__init__(plant)
         self._injector, self._own = Injector(fault, plant.period), OwnHold(inertias)
         self._sensed: BodySensed | None = None
         self._torques, self._grips = np.zeros(len(inertias)), np.zeros(len(inertias) // 2, np.int32)
@@ -112,10 +112,6 @@ class FaultyBody:
         if arrived is not None:
             self._torques[:], self._grips[:] = arrived[:n], arrived[n:] > 0.5
 
-    def pause(self) -> None:
-        """See `BodyPlant`."""
-        self.plant.pause()
-
     def step(self) -> None:
         """See `BodyPlant`."""
         injector = self._injector
@@ -130,10 +126,6 @@ class FaultyBody:
         driven = injector.weaken(torques.copy(), np.zeros(len(torques)))
         self.plant.actuate(driven.reshape(-1, 2), self._grips)
         step_on(self.plant, injector.passed())
-
-    def truth(self) -> BodyTruth | None:
-        """See `BodyPlant`."""
-        return self.plant.truth()
 
 
 class FaultyLimb:
@@ -195,7 +187,7 @@ class FaultyLimb:
         return self.plant.truth()
 
 
-class FaultyHardware:
+class FaultyHardware(PlantLayer[Hardware, Floats]):
     """A robot's wires with a fault; `Hardware`. A counter that is to say no number says that it has lost its count.
 
     Args:
@@ -206,7 +198,7 @@ class FaultyHardware:
     """
 
     def __init__(self, hardware: Hardware, fault: Fault, resolution: Floats, guard: PostureGuard | None = None) -> None:
-        self.hardware, self.period = hardware, hardware.period
+        super().__init__(hardware)
         self._resolution, self._injector, self._guard = resolution, Injector(fault, hardware.period), guard
         self._commands: Floats | None = None
         self._reading: Reading | None = None
@@ -214,13 +206,13 @@ class FaultyHardware:
 
     def reset(self, start: Floats) -> None:
         """See `Hardware`."""
-        self.hardware.reset(start)
+        self.plant.reset(start)
         self._injector.reset()
         self._commands, self._reading, self._guards = None, None, False
 
     def sense(self) -> Reading:
         """See `Hardware`."""
-        reading, n = self.hardware.sense(), len(self._resolution)
+        reading, n = self.plant.sense(), len(self._resolution)
         self._reading = reading
         values = reading.counts.astype(np.float64)
         values[:n] /= self._resolution
@@ -235,10 +227,6 @@ class FaultyHardware:
         if arrived is not None:
             self._commands = arrived
 
-    def pause(self) -> None:
-        """See `Hardware`."""
-        self.hardware.pause()
-
     def step(self) -> None:
         """See `Hardware`."""
         commands = self._commands
@@ -247,9 +235,5 @@ class FaultyHardware:
                 self._guard.hold(self._reading, commands)
             self._guards, commands = True, self._guard.commands(self._reading)
         if commands is not None:
-            self.hardware.actuate(self._injector.weaken(commands.copy(), np.zeros(len(commands))))
-        step_on(self.hardware, self._injector.passed())
-
-    def truth(self) -> Floats:
-        """See `Hardware`."""
-        return self.hardware.truth()
+            self.plant.actuate(self._injector.weaken(commands.copy(), np.zeros(len(commands))))
+        step_on(self.plant, self._injector.passed())

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from ..types import Floats, Ints
-from .plant import BodySensed, BodyTruth, Plant, Sensed, Truth
+from .plant import BodySensed, BodyTruth, PausingPlant, Sensed, Truth
 from .wiring import Wiring
 
 
@@ -20,7 +20,7 @@ class Reading:
     """Number of the tick since the reset; ticks that nobody read are skipped."""
 
 
-class Hardware(Plant[Reading, Floats], Protocol):
+class Hardware(PausingPlant[Reading, Floats], Protocol):
     """A driver, a simulation of one, or the way to one in another process.
 
     `truth` is flat, as the kind of robot has it, and empty where nobody knows it. Without power a gearbox does not hold a robot up: whoever
@@ -35,9 +35,6 @@ class Hardware(Plant[Reading, Floats], Protocol):
 
     def actuate(self, commands: Floats) -> None:
         """Set volts of the joints, then switches of the grippers, held until the next call, shape (n_commands,) [V]."""
-
-    def pause(self) -> None:
-        """Hold the posture without commands until the next."""
 
 
 class Decoder:

@@ -1,7 +1,7 @@
 """What carries a controller's commands out, simulated or real, here or in another process: one protocol, and what a kind adds."""
 
 from dataclasses import dataclass, field
-from typing import Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from .run_report import RunEndedError
 
 SensedT_co = TypeVar("SensedT_co", covariant=True)
 TruthT_co = TypeVar("TruthT_co", covariant=True)
+TruthT = TypeVar("TruthT")
+PlantT = TypeVar("PlantT", bound="PausingPlant[Any, Any]")
 
 
 class PlantStoppedError(RunEndedError):
@@ -33,6 +35,33 @@ class Plant(Protocol[SensedT_co, TruthT_co]):
 
     def truth(self) -> TruthT_co:
         """How things really are: for logs and tests, never for a controller."""
+
+
+class PausingPlant(Plant[SensedT_co, TruthT_co], Protocol):
+    """A plant that can keep still by itself."""
+
+    def pause(self) -> None:
+        """Hold the posture without commands until the next: the controller has to think for longer than a period."""
+
+
+class PlantLayer(Generic[PlantT, TruthT]):
+    """Base of what stands before a plant, and is one of its kind itself.
+
+    Args:
+        plant: Behind it.
+    """
+
+    def __init__(self, plant: PlantT) -> None:
+        self.plant, self.period = plant, plant.period
+
+    def pause(self) -> None:
+        """See `PausingPlant`."""
+        self.plant.pause()
+
+    def truth(self) -> TruthT:
+        """See `Plant`."""
+        truth: TruthT = self.plant.truth()
+        return truth
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -124,7 +153,7 @@ class BodyTruth:
     """Holds that have given way since the start."""
 
 
-class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):
+class BodyPlant(PausingPlant[BodySensed, BodyTruth | None], Protocol):
     """A climber. A real one knows no truth."""
 
     def actuate(self, torques: Floats, grips: Ints) -> None:
@@ -132,6 +161,3 @@ class BodyPlant(Plant[BodySensed, BodyTruth | None], Protocol):
 
     def reset(self, pose: Floats, q: Floats) -> None:
         """Put the body at a pose x, y [m], theta [rad] with joint angles q, shape (limbs, 2) [rad], at rest, at time 0."""
-
-    def pause(self) -> None:
-        """Hold the posture without commands until the next: the controller has to think for longer than a period."""

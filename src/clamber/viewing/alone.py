@@ -6,18 +6,16 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any, Final
 
-import numpy as np
 from matplotlib.axes import Axes
 
 from ..family import Family, NotOfFamilyError, families
 from ..inspection.finding import Finding
 from ..inspection.open_file import family_of_thing, file_kinds, inspect_file, inspect_thing
 from ..tasks.robots import build_robot, family_in, read_robot
-from ..types import Floats, Json
+from ..types import Json
 from . import style
 from .output import CANVASES, check_suffix, save_figure
 from .panel import LINE
-from .recording import MarginRow, Recording
 from .scene import Bounds
 from .style import styled
 from .view import Layout, is_wide
@@ -124,30 +122,3 @@ def draw_alone(shown: ShownAlone, path: str | Path) -> None:
             y -= 0.35 * LINE
         layout.fix_panel(panel)
         save_figure(figure, path)
-
-
-class StillFilm(Recording[Any]):
-    """A robot that stands still, or a world without one, with its facts."""
-
-    def __init__(self, at: Any, finding: Finding) -> None:
-        self._at, self._facts = at, tuple(finding.facts.items())
-        self.title = finding.title or f"{finding.kind} '{finding.name}'"
-        self.seconds, self.gauges, self.grades = 0.0, (), (3,)
-        self.steps = (f"{finding.kind} '{finding.name}'",)
-        self.starts = self.ends = np.zeros(1)
-
-    def at(self, time: float) -> Any:
-        """See `Recording`."""
-        return self._at
-
-    def values(self, at: Any) -> tuple[Floats, ...]:
-        """See `Recording`."""
-        return ()
-
-    def facts(self, step: int, at: Any) -> tuple[tuple[str, str], ...]:
-        """See `Recording`."""
-        return self._facts
-
-    def margins(self, step: int) -> list[MarginRow]:
-        """See `Recording`."""
-        return []

@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Generic, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from .view import Picture, Robot
 
 Moment = TypeVar("Moment")
+Facts: TypeAlias = tuple[tuple[str, str], ...]
 """What a family's robot looks like at one moment."""
 BEFORE: Final = 0.01
 """So much before the next step a step is over, where none rests between them [s]."""
@@ -92,12 +93,12 @@ class Recording(ABC, Generic[Moment]):
         """What the bars of each block show at a moment, SI units, shape (n,) each; NaN where nothing is told."""
 
     @abstractmethod
-    def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
+    def facts(self, step: int, at: Moment) -> Facts:
         """Names and words of what is to be said of a moment."""
 
-    @abstractmethod
     def margins(self, step: int) -> list[MarginRow]:
         """The checks of a step; none where nothing judged it."""
+        return []
 
     def step_at(self, time: float) -> int:
         """Number of the step that is under way at a time; 0 is the start."""
@@ -118,6 +119,38 @@ class Recording(ABC, Generic[Moment]):
     def worst(self) -> int | None:
         """The step that was the nearest to failing; None if none is told."""
         return None
+
+
+class StillFilm(Recording[Moment]):
+    """A robot that stands still, or a world without one, with its facts.
+
+    Args:
+        at: The only moment.
+        step: The only one, in words.
+        facts: Names and words.
+        title: Above all.
+        bars: Blocks of them, each with its values.
+    """
+
+    def __init__(
+        self, at: Moment, step: str, facts: Facts, title: str, bars: tuple[tuple[Gauges, Floats], ...] = ()
+    ) -> None:
+        self._at, self._facts, self._values = at, facts, tuple(values for _, values in bars)
+        self.title, self.steps, self.gauges = title, (step,), tuple(gauges for gauges, _ in bars)
+        self.seconds, self.grades = 0.0, (3,)
+        self.starts = self.ends = np.zeros(1)
+
+    def at(self, time: float) -> Moment:
+        """See `Recording`."""
+        return self._at
+
+    def values(self, at: Moment) -> tuple[Floats, ...]:
+        """See `Recording`."""
+        return self._values
+
+    def facts(self, step: int, at: Moment) -> Facts:
+        """See `Recording`."""
+        return self._facts
 
 
 @dataclass(frozen=True, slots=True)
@@ -220,7 +253,7 @@ class PlanView(View[Moment]):
         ease = share if stretch.part.kind in EVEN else share * share * (3.0 - 2.0 * share)
         return stretch.part.at(ease, stretch.first + share * (stretch.last - stretch.first))
 
-    def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
+    def facts(self, step: int, at: Moment) -> Facts:
         """See `Recording`."""
         return tuple(zip(self.rows, self.lines(step, at), strict=True))
 

@@ -18,9 +18,9 @@ from ...planning.problem.problem import Replay
 from ...planning.progress import Listener
 from ...tasks import load_task
 from ...trials.dynamics import CarriedOut
-from ..alone import Alone, ShownAlone, StillFilm, open_alone, shown_alone
+from ..alone import Alone, ShownAlone, open_alone, shown_alone
 from ..pictures import carried_out, pictures_of
-from ..recording import Recording, View
+from ..recording import Recording, StillFilm, View
 from ..scene import Bounds
 from .solids import LoneScenery, Scenery
 
@@ -220,10 +220,10 @@ def _opened(what: str, task: str | None, overrides: Sequence[str]) -> ViewerCont
 
 def alone_exhibit(shown: ShownAlone) -> ViewerContent:
     """A robot or a world alone: nothing is edited, planned or run."""
-    alone, film = shown.alone, StillFilm(None, shown.finding)
-    scenes = family_of(alone.task).scenes
-    if alone.at is not None:
-        film = StillFilm(scenes.still(alone), shown.finding)
+    alone, finding = shown.alone, shown.finding
+    scenes, name = family_of(alone.task).scenes, f"{finding.kind} '{finding.name}'"
+    at = None if alone.at is None else scenes.still(alone)
+    film = StillFilm(at, name, tuple(finding.facts.items()), finding.title or name)
     whole = scenes.scenery(alone.task, alone.bounds)
     return ViewerContent(film.title, LoneScenery(alone.bounds, whole, robot=alone.at is not None), film)
 

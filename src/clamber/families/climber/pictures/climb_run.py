@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from ....types import Floats
 from ....viewing import style
-from ....viewing.recording import MarginRow, Part, Recording, View
+from ....viewing.recording import Part, Recording, View
 from ....viewing.route import draw_way, label_ghost, pick_ghosts
 from ....viewing.scene import describe_pose
 from ....viewing.view import Picture
@@ -188,10 +188,6 @@ class ClimbFilm(View[Moment]):
             if action.reason:
                 told.append(("Why", action.reason))
         return tuple(told)
-
-    def margins(self, step: int) -> list[MarginRow]:
-        """See `Recording`: nothing judges a run."""
-        return []
 
     @property
     def worst(self) -> int | None:

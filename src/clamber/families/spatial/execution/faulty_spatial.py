@@ -16,6 +16,7 @@ from ....execution.faulty_plants import (
     Weakened,
     step_on,
 )
+from ....execution.plant import PlantLayer
 from ....planning.problem.plan import Plan
 from ....types import Floats, Ints
 from ....units import GRAVITY
@@ -54,7 +55,7 @@ def failing_of(task: SpatialTask, plan: Plan) -> Failing:
     return Failing(sensors=sensors, motors=joints, holds=holds, weight=robot.chains.total_mass * GRAVITY)
 
 
-class FaultySpatial:
+class FaultySpatial(PlantLayer[SpatialPlant, SpatialTruth | None]):
     """A robot in space with a fault; a `SpatialPlant`. A motor that fails tells the torque that it was asked for: its gear slips.
 
     Args:
@@ -65,7 +66,7 @@ class FaultySpatial:
     """
 
     def __init__(self, plant: SpatialPlant, fault: Fault, chains: Chains, inertias: Floats) -> None:
-        self.plant, self.period = plant, plant.period
+        super().__init__(plant)
         self._injector, self._own = Injector(fault, plant.period), OwnHold(inertias)
         self.sensed: Final = SpatialSensed.of(chains)
         """What arrives of the sensors' readings."""
@@ -138,10 +139,6 @@ class FaultySpatial:
         self._gripped[limb] = close
         self.plant.grip(limb, close)
 
-    def pause(self) -> None:
-        """See `SpatialPlant`."""
-        self.plant.pause()
-
     def step(self) -> None:
         """See `SpatialPlant`."""
         injector, fault = self._injector, self._injector.fault
@@ -154,7 +151,3 @@ class FaultySpatial:
             torques = self._own.torques(torques, *self._real.joints)
         self.plant.actuate(injector.weaken(torques.copy(), np.zeros(self._n)))
         step_on(self.plant, injector.passed())
-
-    def truth(self) -> SpatialTruth | None:
-        """See `SpatialPlant`."""
-        return self.plant.truth()

@@ -10,7 +10,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from ....execution.plant import HoldBreak, Plant
+from ....execution.plant import HoldBreak, PausingPlant
 from ....types import Floats, Ints
 from ..robot.chains import Chains
 
@@ -85,7 +85,7 @@ class SpatialTruth:
     """Contacts that have given way since the reset; holds by their numbers."""
 
 
-class SpatialPlant(Plant[SpatialSensed, SpatialTruth | None], Protocol):
+class SpatialPlant(PausingPlant[SpatialSensed, SpatialTruth | None], Protocol):
     """A robot in space, driven by torques; friction, rotors, backlash, delay and torque-speed lines are the plant's.
 
     A real one knows no truth.
@@ -109,6 +109,3 @@ class SpatialPlant(Plant[SpatialSensed, SpatialTruth | None], Protocol):
             joints: Positions [rad] or [m], shape (n,).
             held: Index of the hold that each limb is attached to or stands on, -1: none; shape (limbs,).
         """
-
-    def pause(self) -> None:
-        """Hold the posture without commands until the next: the controller has to think for longer than a period."""

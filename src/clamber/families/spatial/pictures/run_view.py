@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ....types import Floats, Json
-from ....viewing.recording import FRAMES, Frame, MarginRow, Part, View
+from ....viewing.recording import FRAMES, Frame, Part, View
 from ....viewing.route import draw_way
 from ....viewing.view import Picture
 from ..execution.run_trace import RunTrace
@@ -111,10 +111,6 @@ class RunView(View[Moment]):
     def failed(self, step: int) -> bool:
         """See `View`."""
         return step > 0 and self._motions[step - 1]["outcome"] != "ok"
-
-    def margins(self, step: int) -> list[MarginRow]:
-        """See `Film`: nothing judges a run."""
-        return []
 
     def draw(self, picture: Picture[Moment]) -> RobotArtists:
         """See `View`."""

@@ -6,11 +6,12 @@ import numpy as np
 
 from ....execution.fault import Fault, Injector
 from ....execution.faulty_plants import step_on
+from ....execution.plant import PlantLayer
 from ....types import Floats
 from .plant import WalkerPlant, WalkerSensed, WalkerTruth
 
 
-class FaultyWalker:
+class FaultyWalker(PlantLayer[WalkerPlant, WalkerTruth | None]):
     """A walker with a fault; a `WalkerPlant`. A motor of length that is dead stays where it is; a weak one lags behind its aims.
 
     Args:
@@ -20,7 +21,7 @@ class FaultyWalker:
     """
 
     def __init__(self, plant: WalkerPlant, fault: Fault) -> None:
-        self.plant, self.period = plant, plant.period
+        super().__init__(plant)
         self._injector = Injector(fault, plant.period)
         self._aims, self._at = np.zeros(0), np.zeros(0)
 
@@ -48,17 +49,9 @@ class FaultyWalker:
         if arrived is not None:
             self._aims = arrived
 
-    def pause(self) -> None:
-        """See `WalkerPlant`."""
-        self.plant.pause()
-
     def step(self) -> None:
         """See `WalkerPlant`."""
         if self._aims.size:
             self._at = self._injector.weaken(self._aims.copy(), self._at)
             self.plant.actuate(self._at[:3], self._at[3:9].reshape(2, 3), self._at[9:])
         step_on(self.plant, self._injector.passed())
-
-    def truth(self) -> WalkerTruth | None:
-        """See `WalkerPlant`."""
-        return self.plant.truth()

@@ -8,7 +8,7 @@ R = Rz(alpha) Ry(beta) Rx(gamma), z upwards. The Y-frame slides in the plate's p
 from dataclasses import dataclass
 from typing import Protocol
 
-from ....execution.plant import Plant
+from ....execution.plant import PausingPlant
 from ....types import Floats, Ints
 
 
@@ -54,7 +54,7 @@ class WalkerTruth:
     """Of the actuators, shape (3,) [N]; positive pushes the frames' attachments apart."""
 
 
-class WalkerPlant(Plant[WalkerSensed, WalkerTruth | None], Protocol):
+class WalkerPlant(PausingPlant[WalkerSensed, WalkerTruth | None], Protocol):
     """A walker, driven by aims of length, not by forces: its motors have loops of their own. A real one knows no truth."""
 
     def actuate(self, actuators: Floats, legs: Floats, arm: Floats) -> None:
@@ -77,6 +77,3 @@ class WalkerPlant(Plant[WalkerSensed, WalkerTruth | None], Protocol):
             legs: Lengths, shape (2, 3) [m].
             arm: Joint angles, shape (joints,) [rad].
         """
-
-    def pause(self) -> None:
-        """Hold the posture without commands until the next: the controller has to think for longer than a period."""

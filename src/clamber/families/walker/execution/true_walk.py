@@ -7,6 +7,7 @@ from typing import Final
 
 import numpy as np
 
+from ....execution.plant import PlantLayer
 from ....types import Floats, Ints
 from .plant import WalkerPlant, WalkerSensed, WalkerTruth
 
@@ -62,7 +63,7 @@ class TrueWalk:
         return hull_margins(self.feet.reshape(rows, 6, 3), self.touching.reshape(rows, 6), self.centre)
 
 
-class TracedPlant:
+class TracedPlant(PlantLayer[WalkerPlant, WalkerTruth | None]):
     """A walker's plant that keeps what truly happens; a `WalkerPlant` itself.
 
     Args:
@@ -70,41 +71,33 @@ class TracedPlant:
     """
 
     def __init__(self, plant: WalkerPlant) -> None:
-        self._plant, self.period = plant, plant.period
+        super().__init__(plant)
         self._table = np.empty((ROWS, WIDTH))
         self._rows = self._ticks = 0
         self._inclines = np.zeros(2)
 
     def reset(self, pose: Floats, place: Floats, legs: Floats, arm: Floats) -> None:
         """See `WalkerPlant`; what was kept is forgotten."""
-        self._plant.reset(pose, place, legs, arm)
+        self.plant.reset(pose, place, legs, arm)
         self._rows = self._ticks = 0
-        self._inclines = self._plant.sense().inclines
+        self._inclines = self.plant.sense().inclines
         self._keep()
 
     def sense(self) -> WalkerSensed:
         """See `WalkerPlant`."""
-        sensed = self._plant.sense()
+        sensed = self.plant.sense()
         self._inclines = sensed.inclines
         return sensed
 
     def actuate(self, actuators: Floats, legs: Floats, arm: Floats) -> None:
         """See `WalkerPlant`."""
-        self._plant.actuate(actuators, legs, arm)
-
-    def pause(self) -> None:
-        """See `WalkerPlant`."""
-        self._plant.pause()
+        self.plant.actuate(actuators, legs, arm)
 
     def step(self) -> None:
         """See `WalkerPlant`."""
-        self._plant.step()
+        self.plant.step()
         self._ticks += 1
         self._keep()
-
-    def truth(self) -> WalkerTruth | None:
-        """See `WalkerPlant`."""
-        return self._plant.truth()
 
     def trace(self) -> TrueWalk:
         """All ticks since the reset."""
@@ -117,7 +110,7 @@ class TracedPlant:
         return TrueWalk(**parts)
 
     def _keep(self) -> None:
-        true = self._plant.truth()
+        true = self.plant.truth()
         if true is None:
             return
         if self._rows == len(self._table):

@@ -29,7 +29,7 @@ from ..trials.run_walk import WalkRun
 from ..world.ground import Ground
 from .ground_editor import GroundPanel
 from .space import GroundScene, WalkerFigure
-from .walk_film import PlannedWalkFilm, StandingFilm, WalkFilm, logged_walk, way_poses
+from .walk_film import PlannedWalkFilm, WalkFilm, logged_walk, standing_film, way_poses
 from .walker_view import WalkerView
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ class WalkScenes(Scenes):
             return super().exhibit(task, plan, label)
         way = way_poses(task)[:, :2]
         scenery = WalkScenery(walk_bounds(way), task.robot, task.ground, way=way)
-        return ViewerContent(task.title or task.name, scenery, StandingFilm(task), task=task, planned=False)
+        return ViewerContent(task.title or task.name, scenery, standing_film(task), task=task, planned=False)
 
     def run_film(self, exhibit: ViewerContent, run: WalkRun) -> WalkFilm:
         """See `Scenes`."""

@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
-from ....viewing.recording import MarginRow, Recording
+from ....viewing.recording import MarginRow, Recording, StillFilm
 from ..control.gait import lengths_at
 from ..control.track import Track, straight
 from ..control.walker_balance import mass_centre
@@ -300,47 +300,21 @@ def _true_margins(trace: TrueWalk) -> Floats:
     return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
 
 
-class StandingFilm(Recording[WalkMoment]):
-    """The start of a walk, which has no plan.
-
-    Args:
-        walk: The walk.
-    """
-
-    def __init__(self, walk: Walk) -> None:
-        robot = walk.robot
-        self.title, self.seconds, self.steps, self.grades = walk.title or walk.name, 0.0, ("start",), (3,)
-        self.starts = self.ends = np.zeros(1)
-        self.gauges = leg_gauges(robot), actuator_gauges(robot)
-        trace = standing(walk)
-        legs, place = walk.start_legs().ravel(), walk.start_place()
-        shapes = shapes_at(robot, trace, 0)
-        start = walk.start
-        self._moment = WalkMoment(
-            shapes, np.zeros((2, 3, 3)), weight_on_ground(robot, walk.payload), np.array([(start.x, start.y, start.heading)] * 2),
-            (legs, lengths_at(robot, place[None])[0]),
-        )  # fmt: skip
-        self._start = start
-
-    def at(self, time: float) -> WalkMoment:
-        """See `Recording`."""
-        return self._moment
-
-    def values(self, at: WalkMoment) -> tuple[Floats, ...]:
-        """See `Recording`."""
-        return at.loads
-
-    def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
-        """See `Recording`."""
-        start = self._start
-        return (
-            ("Plate", f"x {start.x + 0.0:.3f} m,  y {start.y + 0.0:.3f} m,  {start.heading / DEGREE + 0.0:.1f}°"),
-            ("Plan", "none is needed: a walk goes its way step by step; press Run"),
-        )
-
-    def margins(self, step: int) -> list[MarginRow]:
-        """See `Recording`: nothing has happened."""
-        return []
+def standing_film(walk: Walk) -> StillFilm[WalkMoment]:
+    """The start of a walk, which has no plan."""
+    robot, start = walk.robot, walk.start
+    legs, place = walk.start_legs().ravel(), walk.start_place()
+    loads = legs, lengths_at(robot, place[None])[0]
+    at = WalkMoment(
+        shapes_at(robot, standing(walk), 0), np.zeros((2, 3, 3)), weight_on_ground(robot, walk.payload),
+        np.array([(start.x, start.y, start.heading)] * 2), loads,
+    )  # fmt: skip
+    facts = (
+        ("Plate", f"x {start.x + 0.0:.3f} m,  y {start.y + 0.0:.3f} m,  {start.heading / DEGREE + 0.0:.1f}°"),
+        ("Plan", "none is needed: a walk goes its way step by step; press Run"),
+    )
+    bars = tuple(zip((leg_gauges(robot), actuator_gauges(robot)), loads, strict=True))
+    return StillFilm(at, "start", facts, walk.title or walk.name, bars)
 
 
 def standing(walk: Walk) -> TrueWalk:
