@@ -6,8 +6,8 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from types import FrameType
-from typing import Any, Final, TypeVar
+from types import FrameType, TracebackType
+from typing import Any, Final, Self, TypeVar
 
 T = TypeVar("T")
 
@@ -43,6 +43,23 @@ def answer() -> None:
     if _now.wholes:
         raise KeyboardInterrupt
     _now.open = False
+
+
+class Interruptible:
+    """A block that Ctrl-C ends, and nothing after it: what follows goes on with what there is. See `answer`."""
+
+    interrupted = False
+    """Whether it did."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: object, trace: TracebackType | None) -> bool:
+        if kind is None or not issubclass(kind, KeyboardInterrupt):
+            return False
+        answer()
+        self.interrupted = True
+        return True
 
 
 def asked() -> bool:

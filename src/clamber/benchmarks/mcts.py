@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from ..interrupts import answer
 from ..planning.problem.problem import Records
 from ..planning.progress import Listener
 from ..planning.result import PlanResult
@@ -77,15 +76,12 @@ def plan_mcts(
     """
     hunt = SearchBudget("mcts", task, seed, max_checks, seconds, progress)
     tree = _Tree(hunt, min(max_stances, max_checks + 1), settings or Settings())
-    try:
+    with hunt:
         before = -1
         while not hunt.is_over and hunt.checks > before:
             before = hunt.checks
             tree.descend()
             hunt.tell()
-    except KeyboardInterrupt:
-        answer()
-        hunt.interrupted = True
     return hunt.result()
 
 

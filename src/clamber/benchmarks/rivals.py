@@ -5,7 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from ..interrupts import answer
+from ..interrupts import Interruptible
 from ..planning.problem.plan import Plan
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import listed_problem, plan_family
@@ -46,7 +46,7 @@ LONGEST: Final = 400
 
 
 @dataclass(slots=True)
-class SearchBudget:
+class SearchBudget(Interruptible):
     """A rival at work: what it has spent and the best that it has."""
 
     planner: str
@@ -65,7 +65,6 @@ class SearchBudget:
     found: bool = False
     first_length: int | None = None
     first_checks: int | None = None
-    interrupted: bool = False
 
     def __post_init__(self) -> None:
         self.clock = Clock(self.seconds)
@@ -191,15 +190,12 @@ def plan_greedy(
     nodes.parent[0] = state[GOAL] = -1
     plant_root(params, problem.start, weights, nodes, room.row)
     status = FOUND if hunt.found else RUNNING
-    try:
+    with hunt:
         while status == RUNNING and not hunt.is_over:
             status = greedy(params, weights, nodes, state, room, max_checks, QUOTA)
             hunt.checks = int(state[CHECKS])
             hunt.value = float(nodes.value[state[BEST]])
             hunt.tell()
-    except KeyboardInterrupt:
-        answer()
-        hunt.interrupted = True
     end = max(0, int(state[GOAL])) if status == FOUND else int(state[BEST])
     hunt.value = -np.inf
     hunt.take(path_to(nodes.parent, nodes.code, end), float(nodes.value[end]), found=status == FOUND)
@@ -258,7 +254,7 @@ def plan_random(
     here = np.zeros(2, problem.start.dtype)
     trail, best = (np.zeros(max(1, hunt.longest), np.int32) for _ in range(2))
     number = 0
-    try:
+    with hunt:
         before = -1
         while not hunt.is_over and hunt.checks > before:
             before = hunt.checks
@@ -278,7 +274,4 @@ def plan_random(
                 way = np.concatenate([way, best[: max(0, actions)]])
                 hunt.take(way, value, found=reached)
             hunt.tell()
-    except KeyboardInterrupt:
-        answer()
-        hunt.interrupted = True
     return hunt.result()

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..interrupts import answer
+from ..interrupts import Interruptible
 from .beam_kernels import choose
 from .problem.problem import Beam, CompiledProblem, Records
 from .progress import Clock
@@ -99,11 +99,11 @@ def search_layers(
     kept.n = 1  # the start; its key is written when a child comes back to it
     layer, nodes, depth = problem.start, np.zeros(1, np.int64), 0
     best, best_score, checks = 0, -np.inf, 0
-    goal, interrupted = 0 if problem.is_done(problem.start) else -1, False
+    goal = 0 if problem.is_done(problem.start) else -1
     niches = np.zeros(table_size(beam.width), np.int64)
     chosen, taken = np.zeros(beam.width, np.int64), np.zeros(beam.width + 1, problem.start.dtype)
     filled = np.arange(slots)
-    try:
+    with Interruptible() as block:
         while goal < 0 and len(layer) and depth < beam.longest:
             if clock.is_over:
                 break
@@ -139,12 +139,9 @@ def search_layers(
             depth += 1
             if tell is not None:
                 tell(depth, kept.n, best_score)
-    except KeyboardInterrupt:
-        answer()
-        interrupted = True
     codes = []
     node = goal if goal >= 0 else best
     while node > 0:
         codes.append(int(kept.code[node]))
         node = int(kept.parent[node])
-    return Reached(goal >= 0, interrupted, np.array(codes[::-1], np.int32), depth, kept.n, checks)
+    return Reached(goal >= 0, block.interrupted, np.array(codes[::-1], np.int32), depth, kept.n, checks)

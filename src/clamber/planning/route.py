@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import PlannerError
-from ..interrupts import answer
+from ..interrupts import Interruptible
 from ..tasks import Task
 from .problem.arrays import CostToGoMap
 from .problem.plan import Plan
@@ -129,8 +129,8 @@ def climb(
     state[LOWEST] = plant(params, problem.start, nodes.all, guide)
     if problem.is_done(problem.start):
         state[GOAL] = 0
-    status, interrupted = FOUND if state[GOAL] == 0 else RUNNING, False
-    try:
+    status = FOUND if state[GOAL] == 0 else RUNNING
+    with Interruptible() as block:
         while status in (RUNNING, FULL) and not clock.is_over:
             if status == FULL:
                 if nodes.capacity >= most_stances:
@@ -140,14 +140,11 @@ def climb(
             if tell is not None:
                 best = int(state[BEST])
                 tell(int(state[NODES]), int(nodes.all.g[best]), float(nodes.all.way[best]), float(nodes.all.way[0]))
-    except KeyboardInterrupt:
-        answer()
-        interrupted = True
     goal = int(state[GOAL]) if status == FOUND else int(state[BEST])
     return Climb(
         found=status == FOUND,
         exhausted=status == EXHAUSTED,
-        interrupted=interrupted,
+        interrupted=block.interrupted,
         codes=path_to(nodes.all.parent, nodes.all.code, goal),
         stances=int(state[NODES]),
         checks=int(state[JUDGED]),

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ..errors import SpecError
-from ..interrupts import answer
+from ..interrupts import Interruptible
 from ..tasks import Task
 from ..types import Ints
 from .beam_layers import Corridor, search_layers
@@ -124,7 +124,7 @@ def shorten_by_windows(
     clock = Clock(seconds)
     search = WindowSearch(problem, most)
     length, first = SHORTEST_WINDOW, 0
-    try:
+    with Interruptible() as block:
         while len(codes) > 1:
             if search.seen >= effort or clock.is_over:
                 search.complete = False
@@ -142,10 +142,8 @@ def shorten_by_windows(
                 length, first = int(WINDOW_GROWTH * length), 0
             else:
                 break
-    except KeyboardInterrupt:
-        answer()
-        return Shortened(codes, search.seen, search.checks, complete=False, interrupted=True)
-    return Shortened(codes, search.seen, search.checks, search.complete)
+    complete = search.complete and not block.interrupted
+    return Shortened(codes, search.seen, search.checks, complete, block.interrupted)
 
 
 def is_plan(problem: CompiledProblem, codes: Ints) -> bool:
@@ -189,7 +187,7 @@ def shorten_in_corridor(
     """
     clock = Clock(seconds)
     size, seen, checks, complete = min(FIRST_CORRIDOR, most), 0, 0, False
-    try:
+    with Interruptible() as block:
         while not complete and seen < effort and not clock.is_over:
             before = len(codes)
             codes, nodes, judged, complete = _through(problem, codes, size)
@@ -202,10 +200,7 @@ def shorten_in_corridor(
             if size >= most:
                 break
             size = min(most, CORRIDOR_GROWTH * size)
-    except KeyboardInterrupt:
-        answer()
-        return Shortened(codes, seen, checks, complete=False, interrupted=True)
-    return Shortened(codes, seen, checks, complete)
+    return Shortened(codes, seen, checks, complete and not block.interrupted, block.interrupted)
 
 
 def _through(problem: CompiledProblem, codes: Ints, size: int) -> tuple[Ints, int, int, bool]:

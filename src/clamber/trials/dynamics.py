@@ -134,6 +134,8 @@ class Dynamics(ABC):
     """What a run is called, such as "climb"."""
     past: ClassVar[str]
     """What a run has done that came to its end, such as "climbed"."""
+    replayed: ClassVar[type[Any]]
+    """A run of trials once more, with what trials keep of it, as JSON."""
     compiled: ClassVar[tuple[Use, ...]] = ()
     """Uses of kernels that take long to compile, begun while the plan is searched for."""
 
@@ -216,9 +218,9 @@ class Dynamics(ABC):
     def trials_json(self, trials: Any, held_out: bool) -> Any:
         """What `clamber trials --json` prints; `held_out`: whether all seeds are held out from tuning."""
 
-    @abstractmethod
     def replay_json(self, run: Any, trial: Any) -> Any:
         """What `clamber trials --replay SEED --json` prints."""
+        return self.replayed(run, trial)
 
     @abstractmethod
     def print_trials(self, console: Console, trials: Any, seeds: Sequence[int]) -> None:

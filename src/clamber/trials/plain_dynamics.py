@@ -119,11 +119,6 @@ class PlainSetup(Setup[PlainRun, PlainTrial]):
     faults: tuple[str, ...] = ()
 
     @property
-    def work(self) -> Task:
-        """See `Setup`."""
-        return self.task
-
-    @property
     def worker(self) -> Callable[[Json], Json]:
         """One trial."""
         return run_plain_trial
@@ -177,6 +172,7 @@ def _one(item: Json, step: Callable[[str, float | None], None]) -> tuple[PlainRu
 class PlainDynamics(Dynamics):
     """A family's `simulate`, with all that commands ask around it."""
 
+    replayed = ReplayedPlan
     noise: ClassVar[Mapping[str, NoiseKind]] = {}
     """Key -> what may deviate; each is drawn evenly to either side."""
 
@@ -275,10 +271,6 @@ class PlainDynamics(Dynamics):
         """Counts and trials."""
         n, done = len(trials.ended), trials.done
         return TrialedPlan(trials.setup.task.name, n, done, wilson_interval(done, n), held_out, trials.ended)
-
-    def replay_json(self, run: PlainRun, trial: PlainTrial) -> ReplayedPlan:
-        """The run, and what trials keep of it."""
-        return ReplayedPlan(run, trial)
 
     def print_trials(self, console: "Console", trials: Trials[PlainSetup, PlainTrial], seeds: Sequence[int]) -> None:
         """Success with its interval, and the reasons of failures."""

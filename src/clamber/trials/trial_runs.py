@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, Final, Generic, Protocol, TypeVar
 
 from ..errors import ClamberError
-from ..interrupts import answer
+from ..interrupts import Interruptible
 from ..jobs import Executor, Kept, Outcome, look_into, map_items
 from ..json_form import Count, Jsonable, in_json
 from ..notebook import Pictured
@@ -17,6 +17,8 @@ from ..types import Json
 
 Z95: Final = 1.959963984540054
 """Two-sided 95 % of the normal distribution."""
+ERROR: Final = "error"
+"""Begins the reason of a trial that raised, or whose workers died."""
 
 
 def wilson_interval(hits: int, n: int, z: float = Z95) -> tuple[float, float]:
@@ -108,13 +110,14 @@ RunT = TypeVar("RunT")
 class Setup(ABC, Generic[RunT, TrialT]):
     """What all trials of a work have in common, as plain as a worker needs it."""
 
+    task: Any
     plan: Plan | None
     faults: tuple[str, ...]
 
     @property
-    @abstractmethod
     def work(self) -> Any:
         """The task, or what else is carried out."""
+        return self.task
 
     @property
     @abstractmethod
@@ -307,7 +310,7 @@ def run_trials(
         if told is not None:
             told(trials)
 
-    try:
+    with Interruptible():
         outcomes = map_items(
             setup.worker,
             [setup.item(seed) for seed in seeds],
@@ -324,8 +327,6 @@ def run_trials(
             setup.failed(seed, outcome.error or "") if outcome.result is None else setup.trial(outcome.result, store)
             for seed, outcome in zip(seeds, outcomes, strict=True)
         ]
-    except KeyboardInterrupt:
-        answer()
     return trials
 
 

@@ -49,6 +49,7 @@ class ClimberDynamics(Dynamics):
 
     kind = "climb"
     past = "climbed"
+    replayed = ReplayedClimb
     compiled = (CLIMBING,)
 
     def unused(self, work: LimbedTask) -> frozenset[str]:
@@ -152,10 +153,6 @@ class ClimberDynamics(Dynamics):
     def trials_json(self, trials: ClimbTrials, held_out: bool) -> TrialedClimb:
         """Summary and trials."""
         return TrialedClimb(sum_up(trials), held_out, trials.ended)
-
-    def replay_json(self, run: ClimbRun, trial: ClimbTrial) -> ReplayedClimb:
-        """The climb, and what trials keep of it."""
-        return ReplayedClimb(run, trial)
 
     def print_trials(self, console: "Console", trials: ClimbTrials, seeds: Sequence[int]) -> None:
         """Success, causes, times, and what of the noise matters."""

@@ -67,6 +67,7 @@ class SpatialDynamics(Dynamics):
 
     kind = "run"
     past = "carried out"
+    replayed = ReplayedRun
 
     def unused(self, work: SpatialTask) -> frozenset[str]:
         """Motors and servers, of which its plant knows none; its flaws are set with `--set plant.KEY`."""
@@ -153,10 +154,6 @@ class SpatialDynamics(Dynamics):
     def trials_json(self, trials: SpatialTrials, held_out: bool) -> TrialedRuns:
         """The trials and what they say together."""
         return TrialedRuns(trials, held_out)
-
-    def replay_json(self, run: SpatialRun, trial: SpatialTrial) -> ReplayedRun:
-        """The run, and what trials keep of it."""
-        return ReplayedRun(run, trial)
 
     def print_trials(self, console: "Console", trials: SpatialTrials, seeds: Sequence[int]) -> None:
         """How often runs came to their end, and the spread of what is measured of them."""

@@ -49,6 +49,7 @@ class WalkerDynamics(Dynamics):
 
     kind = "walk"
     past = "walked"
+    replayed = ReplayedWalk
 
     def unused(self, work: Work) -> frozenset[str]:
         """What only climbs have; of a walk, also what only plans have."""
@@ -111,10 +112,6 @@ class WalkerDynamics(Dynamics):
     def trials_json(self, trials: WalkTrials, held_out: bool) -> TrialedWalk:
         """The trials and what they say together."""
         return TrialedWalk(trials, held_out)
-
-    def replay_json(self, run: WalkRun, trial: WalkTrial) -> ReplayedWalk:
-        """The walk, and what trials keep of it."""
-        return ReplayedWalk(run, trial)
 
     def print_trials(self, console: "Console", trials: WalkTrials, seeds: Sequence[int]) -> None:
         """How often walks came to their end, and the spread of what is measured of them."""

@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...interrupts import answer
+from ...interrupts import Interruptible
 from ...types import Ints
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
@@ -176,8 +176,8 @@ def explore(
     tally = np.zeros(len(problem.checks), np.int64)
     search = search_record(problem, aim, dominance=dominance)
     planted = plant(params, search, state[0], problem.start, memory.seen, room)
-    status, interrupted = RUNNING if planted else EXHAUSTED, False
-    try:
+    status = RUNNING if planted else EXHAUSTED
+    with Interruptible() as block:
         quota, looked = FIRST_QUOTA, time.monotonic()
         while status in (RUNNING, FULL):
             if status == FULL and not memory.grow(problem.branching):
@@ -190,9 +190,6 @@ def explore(
                 break
             took = looked - before
             quota = min(QUOTA, 2 * quota) if took < LOOK / 2 else max(FIRST_QUOTA, quota // 2) if took > LOOK else quota
-    except KeyboardInterrupt:
-        answer()
-        interrupted = True
     ways = _ways(problem, memory)
     if ways:
         best = ways[0].codes
@@ -203,7 +200,7 @@ def explore(
     return Exploration(
         found=status == FOUND,
         exhausted=status == EXHAUSTED,
-        interrupted=interrupted,
+        interrupted=block.interrupted,
         codes=best,
         ways=ways,
         stances=int(state["nodes"][0]),

@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from ...interrupts import answer
+from ...interrupts import Interruptible
 from ...tasks import Task
 from ..problem.arrays import ActionTable
 from ..problem.plan import Plan
@@ -109,7 +109,6 @@ def search(
     clock = Clock(budget.seconds)
     identity = f"{identity}/seed {seed}/profile {json.dumps(asdict(profile), sort_keys=True, default=str)}"
     keeper = Keeper(checkpoint, identity)
-    interrupted = False
     run = keeper.load(problem, profile.search.population, profile.search.longest)
     base = problem
     if run is None:
@@ -121,7 +120,7 @@ def search(
         keeper.save(run)
         tell(listener, problem, run.state)
 
-    try:
+    with Interruptible() as block:
         tell(listener, problem, run.state)
         while not run.state.found and budget.allows(run.state, profile.search.population, clock):
             if (
@@ -138,12 +137,9 @@ def search(
             next_generation(problem, profile, run.state, seed)
             watch()
         _polish(problem, profile, run, seed, lambda: budget.allows(run.state, BATCH, clock), watch)
-    except KeyboardInterrupt:
-        answer()
-        interrupted = True
     _note_success(run)
     keeper.save(run, now=True)
-    return _outcome(problem, run, interrupted)
+    return _outcome(problem, run, block.interrupted)
 
 
 def _note_success(run: Run) -> None:

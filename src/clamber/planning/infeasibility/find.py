@@ -6,7 +6,7 @@ from typing import Annotated, Final
 
 from ...errors import PlannerError
 from ...family import NotOfFamilyError, family_of
-from ...interrupts import answer
+from ...interrupts import Interruptible
 from ...json_form import Count, Jsonable, Key, in_json
 from ...tasks import Task
 from ..problem.problems import plan_family
@@ -166,7 +166,7 @@ def explain_infeasibility(
 
     trial = Trial(task, max_stances=max_stances, seconds=seconds, tell=tell)
     key = "as it is"
-    try:
+    with Interruptible() as block:
         trial.grant(FIRST_SHARE)
         near = _furthest(trial)
         kinds = list(relaxations(task))
@@ -187,8 +187,7 @@ def explain_infeasibility(
                 shut.append(
                     FailedRelaxation(key=key, tried="where the robot can get to was not seen whole", proved=False)
                 )
-    except KeyboardInterrupt:
-        answer()
+    if block.interrupted:
         ended = "interrupted"
     if not ended and trial.left() == 0.0:
         ended = "time"

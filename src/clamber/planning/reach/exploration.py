@@ -8,7 +8,7 @@ from typing import Final
 
 import numpy as np
 
-from ...interrupts import answer
+from ...interrupts import Interruptible
 from ..problem.body_pose import PoseLattice
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Normalisation
@@ -217,7 +217,7 @@ def explore_breadth_first(
     depth, done, layer_end, judged, ended = 0, 0, 1, 0, ""
     forbidden = np.zeros(len(problem.checks), np.int64)
     pool = _pool(threads)
-    try:
+    with Interruptible() as block:
         while done < reached.seen and not ended:
             if done == layer_end:
                 depth, layer_end = depth + 1, reached.seen
@@ -233,8 +233,7 @@ def explore_breadth_first(
                 tell(reached.seen, int(reached.state[POSES]), depth)
             if clock.is_over and done < reached.seen:
                 ended = ended or "time"
-    except KeyboardInterrupt:
-        answer()
+    if block.interrupted:
         ended = "interrupt"
     if pool is not None:
         pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more

@@ -16,11 +16,11 @@ from ...families.climber.planning.task import LimbedTask
 from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
 from ...families.climber.trials.plants import drawn_plant
 from ...families.climber.trials.run_plan import believing_climber, climbing_flaws
-from ...families.climber.trials.trial import ERROR, ClimbTrial, TrialSetup
+from ...families.climber.trials.trial import ClimbTrial, TrialSetup
 from ...families.climber.trials.warm_up import warm_up
 from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
-from ...trials.trial_runs import run_trials
+from ...trials.trial_runs import ERROR, run_trials
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI

@@ -15,7 +15,7 @@ from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import RunEvents
 from ....trials.fault_trials import TriedFault, check_told, told_fault
-from ....trials.trial_runs import Setup, Trials
+from ....trials.trial_runs import ERROR, Setup, Trials
 from ....types import Json
 from ..execution.climbing import Progress, Replan
 from ..execution.executable_plan import lay_course
@@ -28,8 +28,6 @@ from .warm_up import warm_up
 
 PLAN_SEED: Final = 0
 """Of the plan that all trials share, and of plans made on the way."""
-ERROR: Final = "error"
-"""Outcome of a trial that raised, or whose workers died."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -151,11 +149,6 @@ class TrialSetup(Setup[ClimbRun, ClimbTrial]):
     """Whether to carry out a plan that something speaks against."""
     faults: tuple[str, ...] = ()
     """Kinds of faults, one of which each trial has; none without."""
-
-    @property
-    def work(self) -> LimbedTask:
-        """See `Setup`."""
-        return self.task
 
     def about(self) -> Json:
         """What tells these trials from others; not how many, nor from which seed on."""

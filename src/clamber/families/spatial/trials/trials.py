@@ -8,7 +8,7 @@ from dataclasses import (
 )
 from operator import attrgetter
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
 from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
 from ....trials.sensitivity import Effect, find_effects
-from ....trials.trial_runs import Cause, Setup, Trials, causes_of
+from ....trials.trial_runs import ERROR, Cause, Setup, Trials, causes_of
 from ....types import Floats, Json
 from ..control.laws import USUAL
 from ..execution.faulty_spatial import BEGINS, failing_of
@@ -40,9 +40,6 @@ from .run_plan import (
     SpatialRun,
     run_plan,
 )
-
-ERROR: Final = "error"
-"""Start of the reason of a trial that raised, or whose workers died."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -150,11 +147,6 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     """How plans are searched for on the way."""
     faults: tuple[str, ...] = ()
     """Kinds of faults, one of which each trial has; none without."""
-
-    @property
-    def work(self) -> SpatialTask:
-        """See `Setup`."""
-        return self.task
 
     @property
     def name(self) -> str:

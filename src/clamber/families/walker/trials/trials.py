@@ -15,7 +15,7 @@ from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
-from ....trials.trial_runs import Cause, Setup, Trials, causes_of, wilson_interval
+from ....trials.trial_runs import ERROR, Cause, Setup, Trials, causes_of, wilson_interval
 from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
 from ..execution.own_sensors import FORCES, INCLINES, channels_of
@@ -50,8 +50,6 @@ def failing_of(robot: WalkerRobot) -> Failing:
 
 LEVEL: Final = 0.1 * DEGREE
 """A plate counts as level within this [rad]: what the paper's robot levels itself to."""
-ERROR: Final = "error"
-"""Start of the reason of a trial that raised, or whose workers died."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
