@@ -1,6 +1,7 @@
 """Compiled kernels: a warm cache never answers for source that has changed, and threads and runs never change an answer."""
 
 import ast
+import gc
 import importlib
 import os
 import shutil
@@ -9,12 +10,13 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 from types import CodeType, ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 from numba.core.registry import CPUDispatcher
 
+from clamber.compiled import Handle, kernel, opened
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.kernel_cache import kernel_hash
 from clamber.planning.problem import codes
@@ -176,8 +178,8 @@ def frozen_constants() -> set[tuple[Path, str]]:
     """File and name of every value, neither function nor module, that some kernel reads from outside of itself."""
     found = set()
     for module in kernel_modules():
-        for kernel in (value for value in vars(module).values() if isinstance(value, CPUDispatcher)):
-            function = kernel.py_func
+        for compiled in (value for value in vars(module).values() if isinstance(value, CPUDispatcher)):
+            function = compiled.py_func
             for code in codes_in(function.__code__):
                 for name in code.co_names:
                     value = function.__globals__.get(name)
@@ -302,3 +304,40 @@ def test_random_grabs_are_the_same_every_time_and_differ_with_the_seed() -> None
         resolved = LimbedProblem(task, table(3)).replay(plan, go_on=True).stances["resolved"].tolist()
         assert taken.setdefault(seed, resolved) == resolved
     assert len({tuple(resolved) for resolved in taken.values()}) > 2
+
+
+class Held(NamedTuple):
+    """What a handle may hold, one within the other."""
+
+    place: Any
+    rates: tuple[float, float]
+    records: Any
+
+
+@kernel
+def turned(handle: Any, factor: float) -> Any:
+    held, counts, k, share = opened(handle)
+    held.place[1, 2] *= factor * held.rates[1]
+    held.records[1].hold += k
+    counts[counts.size - 1] += 1
+    return held.place.shape[0] * 10 + held.place.shape[1] + share
+
+
+def test_kernels_open_a_handle_to_what_it_holds_and_it_keeps_that_alive() -> None:
+    record = np.dtype([("hold", "i8"), ("normal", "f8", (3,))], align=True)
+    handle = Handle(
+        Held(np.arange(12.0).reshape(3, 4), (1.0, 0.5), np.zeros(2, record)), np.zeros(5, np.int32), 7, 0.25
+    )
+    gc.collect()
+    filled = [np.full((3, 4), -1.0) for _ in range(100)]  # would take the memory of arrays that are gone
+    assert [turned(handle, 4.0) for _ in range(3)] == [34.25] * 3
+    held, counts, *_ = handle.held
+    assert np.array_equal(held.place, np.where(np.arange(12.0) == 6.0, 48.0, np.arange(12.0)).reshape(3, 4))
+    assert held.records["hold"].tolist() == [0, 21] and counts.tolist() == [0, 0, 0, 0, 3]
+    assert all((array == -1.0).all() for array in filled)
+
+
+@pytest.mark.parametrize("value", ["text", None, True, [1.0], object()])
+def test_a_handle_refuses_what_kernels_could_not_read(value: object) -> None:
+    with pytest.raises(TypeError, match=f"not {type(value).__name__}"):
+        Handle(np.zeros(3), (value,))

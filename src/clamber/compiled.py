@@ -2,12 +2,13 @@
 
 import contextlib
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, Final, TypeVar
 
 import numba
+import numpy as np
 from numba.core import cgutils, types
 from numba.core.types import unliteral
-from numba.extending import intrinsic
+from numba.extending import NativeValue, intrinsic, models, register_model, unbox
 
 from .kernel_cache import KernelCache, bounds_checked, tell_no_cache
 
@@ -68,3 +69,61 @@ def pointer(typing_context: Any, address: types.Type) -> Any:
         return builder.inttoptr(arguments[0], cgutils.voidptr_t)
 
     return types.voidptr(address), generate
+
+
+class HandleType(types.Type):  # type: ignore[misc]
+    """Of a `Handle`, by what it holds."""
+
+    def __init__(self, held: types.Type) -> None:
+        super().__init__(f"Handle({held})")
+        self.held = held
+
+
+class Handle:
+    """A tuple of arrays, numbers and such tuples that kernels take as one argument, which they open with `opened`.
+
+    Numba looks at every array of a tuple anew in each call, for 0.3 to 0.6 us, and a control tick passes hundreds. A handle is looked at
+    once; it keeps what it holds alive, and kernels count no references to that. Numbers are those of when it was made.
+    """
+
+    __slots__ = ("_memory", "_numba_type_", "address", "held")
+
+    def __init__(self, *held: Any) -> None:
+        self.held: Final = held
+        self._memory = np.array(_words(held), np.int64)
+        self.address: Final = int(self._memory.ctypes.data)
+        self._numba_type_ = HandleType(numba.typeof(held))
+
+
+def _words(value: Any) -> list[int]:
+    """A value as Numba's kernels have it in memory: of an array that nobody counts, size, place, shape and strides."""
+    if isinstance(value, np.ndarray):
+        return [0, 0, value.size, value.itemsize, value.ctypes.data, *value.shape, *value.strides]
+    if isinstance(value, tuple):
+        return [word for each in value for word in _words(each)]
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise TypeError(f"a handle holds arrays, whole and real numbers, not {type(value).__name__}")
+    return [int(np.array(value, np.float64).view(np.int64)) if isinstance(value, float) else value]
+
+
+register_model(HandleType)(models.OpaqueModel)
+
+
+@unbox(HandleType)  # type: ignore[untyped-decorator]
+def _take(kind: HandleType, handle: Any, call: Any) -> NativeValue:
+    """The address in a handle, as kernels have it."""
+    address = call.pyapi.object_getattr_string(handle, "address")
+    found = call.builder.inttoptr(call.pyapi.number_as_ssize_t(address), cgutils.voidptr_t)
+    call.pyapi.decref(address)
+    return NativeValue(found)
+
+
+@intrinsic  # type: ignore[untyped-decorator]
+def opened(typing_context: Any, handle: HandleType) -> Any:
+    """The tuple that a `Handle` holds, for kernels."""
+
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        kind = context.get_value_type(handle.held).as_pointer()
+        return builder.load(builder.bitcast(arguments[0], kind))
+
+    return handle.held(handle), generate

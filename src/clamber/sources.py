@@ -19,8 +19,9 @@ from typing import Final
 
 PACKAGE: Final = Path(__file__).resolve().parent
 KERNEL_MARK: Final = re.compile(
-    rb"^[ \t]*(?:from|import)[ \t]+(?:[\w.]*\b(?:compiled|family_kernels)|numba)\b", re.MULTILINE
+    rb"^[ \t]*(?:from|import)[ \t]+(?:[\w.]*\b(?:compiled|family_kernels)|numba)\b(?! import Handle$)", re.MULTILINE
 )
+"""Who imports a `Handle` alone calls kernels, and has none."""
 INNER_IMPORT: Final = re.compile(r"^[ \t]+(?:from|import)\s", re.MULTILINE)
 COMPILERS: Final = frozenset({"kernel", "inlined", "intrinsic", "overload", "numba"})
 """Names by which a function is compiled; one that names any of them is followed like a kernel."""

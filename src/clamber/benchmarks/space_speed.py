@@ -207,8 +207,10 @@ def law_rows(*, tasks: Sequence[str] = LAW_TASKS, rounds: int = 15, say: Say = k
                 missing.append(f"{rival} (not installed: {how_to_install(rival)})")
         times = np.median(round_times(tuple(works.values()), rounds), axis=0) / len(moments)
         rows += [Row(f"{name}, {law}: tick", 1e6 * seconds, "us") for law, seconds in zip(works, times, strict=True)]
-        told = [law.told for law in kinds[USUAL] if isinstance(law, WholeBody)]
-        solving = np.median([each["setup_time"] + each["solve_time"] for each in told])
-        rows.append(Row(f"{name}, {USUAL}: of its tick DAQP's", 1e6 * float(solving), "us"))
+        bound = [law.told for law in kinds[USUAL] if isinstance(law, WholeBody) and law.told]
+        rows.append(Row(f"{name}, {USUAL}: moments at which a limit binds", len(bound) / len(moments), "share"))
+        if bound:
+            solving = np.median([each["setup_time"] + each["solve_time"] for each in bound])
+            rows.append(Row(f"{name}, {USUAL}: DAQP's of a tick then", 1e6 * float(solving), "us"))
         rows += [Row(f"{name}, {rival}", NOTHING, "us") for rival in missing]
     return rows

@@ -6,7 +6,7 @@ ago: no joint gets farther from going on as it went than its fastest speed bring
 
 import math
 
-from ..compiled import kernel
+from ..compiled import kernel, opened
 
 FASTEST, ANSWER, FULL, SLOW, AGAINST = 0, 1, 2, 3, 4
 """Rows of `bounds`: largest speed; change of the command that moves every joint; a command that is nearly all that there is, and the
@@ -22,24 +22,26 @@ BELIEVED, NO_NUMBER, JUMP, NOTHING_NEW = 0, 1, 2, 3
 
 
 @kernel
-def check_readings(values, speeds, commands, free, bounds, period, elapsed, smoothing, patience, memory, verdicts):
+def check_readings(handle, elapsed):
     """Believe or bridge the readings of a tick.
 
     Args:
-        values, speeds: As read, and as believed afterwards, shape (n,).
-        commands: Of the motors since the reading before, shape (n,).
-        free: Whether nothing but its motor and what it carries moved a joint under them, shape (n,).
-        bounds: Rows as above, shape (5, n).
-        period: Between two ticks [s].
+        handle: Holds, in this order,
+            values, speeds: As read, and as believed afterwards, shape (n,);
+            commands: Of the motors since the reading before, shape (n,);
+            free: Whether nothing but its motor and what it carries moved a joint under them, shape (n,);
+            bounds: Rows as above, shape (5, n);
+            patience: Ticks for which a joint may stay where it is, may not follow a full command, and may turn against one, shape (3,);
+            memory: Rows as above; changed, shape (13, n);
+            verdicts: Filled, shape (n,);
+            period: Between two ticks [s];
+            smoothing: Part of the way to the newest command that the smoothed one goes in a tick.
         elapsed: Ticks since the newest reading before; 0: there is no newer one.
-        smoothing: Part of the way to the newest command that the smoothed one goes in a tick.
-        patience: Ticks for which a joint may stay where it is, may not follow a full command, and may turn against one, shape (3,).
-        memory: Rows as above; changed, shape (13, n).
-        verdicts: Filled, shape (n,).
 
     Returns:
         Whether there is anything to look at: a reading not believed, or a joint that does not answer its motor.
     """
+    values, speeds, commands, free, bounds, patience, memory, verdicts, period, smoothing = opened(handle)
     told = False
     for c in range(values.size):
         a = values[c]

@@ -2,12 +2,14 @@
 
 import math
 
+import daqp
 import mujoco
 import numpy as np
 import pytest
 
 from clamber.control.whole_body.law import WholeBody
-from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits
+from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits, Programme
+from clamber.control.whole_body.programme_kernels import write_programme
 from clamber.control.whole_body.tree import State, Tree
 from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 
@@ -71,6 +73,28 @@ def test_the_torques_are_those_of_mujocos_inverse_dynamics() -> None:
         torques = torques + torques_of_contact[6:]
     mujoco.mj_inverse(model, data)
     assert np.allclose(torques, data.qfrc_inverse[6:], atol=1e-6)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_torques_are_those_of_the_solver_whether_anything_binds_or_not(seed: int) -> None:
+    tree = random_tree(seed, limbs=4, slide=False)
+    state = random_state(tree, seed, speed=0.3)
+    free = np.abs(law_of(tree, state).tick()).max()
+    called = []
+    for share in (10.0, 0.7):
+        law = law_of(tree, state, torque=share * free)
+        law.aims.acceleration[:3] = 0.3, -0.2, 0.1
+        found, wrenches = law.tick().copy(), law.wrenches.copy()
+        called.append(bool(law.told))
+        programme = Programme.of(tree, 9)
+        n, m = write_programme(tree, law.state, law.dynamics, law.aims, law.limits, law.gains.packed(), programme)
+        a = programme.a[: m * n].reshape(m, n)
+        bounds = programme.upper[: n + m], programme.lower[: n + m], programme.sense[: n + m]
+        x, _, flag, _ = daqp.solve(programme.h[: n * n].reshape(n, n), programme.f[:n], a, *bounds)
+        assert flag == 1
+        assert np.allclose(found, law.dynamics.bias[6:] + a[6 : tree.speeds] @ x, rtol=1e-6, atol=1e-6 * free)
+        assert np.allclose(wrenches[:, :3].ravel(), x[tree.speeds :], rtol=1e-5, atol=1e-5 * free)
+    assert called == [False, True]  # what binds is the solver's
 
 
 def test_a_robot_at_rest_with_nothing_to_do_bears_its_weight() -> None:

@@ -5,11 +5,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from ...compiled import Handle
 from ...types import Floats
 from .programme import Aims, Gains, Limits, Programme
-from .programme_kernels import hold_torques, read_torques, write_programme
+from .programme_kernels import hold_torques, read_solution, write_and_solve
 from .tree import Dynamics, State, Tree
-from .tree_kernels import work_out
+from .tree_kernels import look
 
 DAMPED: Final = 0.1
 """Of a joint's largest torque that motion of 1 rad/s takes where a law finds no torques [s]."""
@@ -36,10 +37,11 @@ class BodyLaw(ABC):
         self.failures = 0
         """Ticks in which the law found no torques."""
         self._packed, self._damping = gains.packed(), DAMPED * float(np.min(limits.torque))
+        self._own = Handle(tree, self.state, self.dynamics)
 
     def look(self) -> None:
         """Work out the dynamics of `state`."""
-        work_out(self.tree, self.state, self.dynamics)
+        look(self._own)
 
     @abstractmethod
     def tick(self) -> Floats:
@@ -55,7 +57,8 @@ class BodyLaw(ABC):
 class WholeBody(BodyLaw):
     """Whole-body control: at each tick the accelerations and contact wrenches that come nearest to what is asked for, as motor torques.
 
-    All limits are kept: of torques, of contacts, and, as far as that can be, of joints.
+    All limits are kept: of torques, of contacts, and, as far as that can be, of joints. Where none binds, as at most ticks, the programme
+    is its equations, which a kernel solves; all others are DAQP's.
     """
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
@@ -64,19 +67,30 @@ class WholeBody(BodyLaw):
         super().__init__(tree, limits, gains, most_rows)
         self._solve: Any = daqp.solve
         self.told: dict[str, Any] = {}
-        """What the solver says of the last tick: `setup_time`, `solve_time` [s], `iterations`."""
+        """What the solver says of the last tick that it solved: `setup_time`, `solve_time` [s], `iterations`."""
         self._programme = Programme.of(tree, most_rows)
+        self._all = Handle(
+            tree,
+            self.state,
+            self.dynamics,
+            self.aims,
+            limits,
+            self._packed,
+            self._programme,
+            self.torques,
+            self.wrenches,
+        )
         self._views: dict[tuple[int, int], tuple[Any, ...]] = {}
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
-        programme, aims = self._programme, self.aims
-        n, m = write_programme(self.tree, self.state, self.dynamics, aims, self.limits, self._packed, programme)
-        views = self._views.get((n, m)) or self._view(n, m)
-        x, _, flag, self.told = self._solve(*views)
+        n, m, solved = write_and_solve(self._all)
+        if solved:
+            return self.torques
+        x, _, flag, self.told = self._solve(*(self._views.get((n, m)) or self._view(n, m)))
         if flag < 1:
             return self._fail()
-        read_torques(self.dynamics, aims, self.limits, programme, views[2], x, self.torques, self.wrenches)
+        read_solution(self._all, m, x)
         return self.torques
 
     def _view(self, n: int, m: int) -> tuple[Any, ...]:

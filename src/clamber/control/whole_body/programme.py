@@ -14,7 +14,7 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from ...types import Floats, Ints
-from .tree import Tree
+from .tree import FREE, Tree
 
 FREE_LIMB, SWINGS, HOLDS = range(3)
 """What a limb does: nothing but come to rest, follow a path with its tip, or hold on."""
@@ -156,6 +156,14 @@ class Programme(NamedTuple):
     """Of each bound and row: 5 for equations, 8 for what may give way."""
     at: Ints
     """First unknown of each limb's wrench; -1: it bears none, shape (limbs,)."""
+    x: Floats
+    """Of the equations alone."""
+    factor: Floats
+    """Scratch of `programme_kernels.solve_equations`, shape (6 + n, 6 + n) ..."""
+    z: Floats
+    """... (7, unknowns) ..."""
+    square: Floats
+    """... and (7, 6)."""
 
     @classmethod
     def of(cls, tree: Tree, most_rows: int) -> "Programme":
@@ -170,4 +178,8 @@ class Programme(NamedTuple):
             upper=np.zeros(n + rows),
             sense=np.zeros(n + rows, np.int32),
             at=np.zeros(tree.limbs, np.int32),
+            x=np.zeros(n),
+            factor=np.zeros((tree.speeds, tree.speeds)),
+            z=np.zeros((FREE + 1, n)),
+            square=np.zeros((FREE + 1, FREE)),
         )

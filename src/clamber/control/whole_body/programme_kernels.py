@@ -2,7 +2,7 @@
 
 import math
 
-from ...compiled import inlined, kernel
+from ...compiled import inlined, kernel, opened
 from .programme import (
     ARM,
     BASE,
@@ -25,6 +25,8 @@ from .tree import FREE
 
 EQUATION, GIVES_WAY = 5, 8
 """What the solver calls such bounds."""
+MET = 1e-6
+"""A bound or row that is missed by no more is met, as it is for the solver [of its unit]."""
 SMALL = 1e-9
 """Of the diagonal, so that the programme is strictly convex whatever is asked for [-]."""
 
@@ -224,6 +226,116 @@ def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
 
 
 @kernel
+def factor(matrix, n, lower):
+    """Cholesky factor of the first `n` rows and columns of a matrix."""
+    for i in range(n):
+        for j in range(i + 1):
+            total = matrix[i, j]
+            for k in range(j):
+                total -= lower[i, k] * lower[j, k]
+            lower[i, j] = math.sqrt(total) if i == j else total / lower[j, j]
+
+
+@kernel
+def solve_equations(programme, n, m, nv):
+    """Solve a programme for its equations alone, into `programme.x`; whether that meets every bound and row, and so is the solution.
+
+    At most moments nothing binds. H is that of the accelerations, then a diagonal; the equations are the first six rows of A x = b:
+
+        x = -H^-1 (f + A^T l),    (A H^-1 A^T) l = -b - A H^-1 f
+
+    With H = L L^T and the rows of A^T and f solved by L, Z = L^-1 A^T and z = L^-1 f, that is (Z^T Z) l = -b - Z^T z.
+    """
+    h, a, x = programme.h[: n * n].reshape(n, n), programme.a[: m * n].reshape(m, n), programme.x
+    lower, z, square = programme.factor, programme.z, programme.square
+    factor(h, nv, lower)
+    for r in range(FREE + 1):
+        row = z[r]
+        for i in range(n):
+            row[i] = programme.f[i] if r == FREE else a[r, i]
+        for i in range(nv):
+            total = row[i]
+            for k in range(i):
+                total -= lower[i, k] * row[k]
+            row[i] = total / lower[i, i]
+        for i in range(nv, n):
+            row[i] /= math.sqrt(h[i, i])
+    for r in range(FREE + 1):
+        for c in range(FREE if r == FREE else r + 1):
+            total = 0.0
+            for i in range(n):
+                total += z[r, i] * z[c, i]
+            square[r, c] = total
+    for r in range(FREE):
+        square[FREE, r] = -programme.upper[n + r] - square[FREE, r]
+    factor(square, FREE, square)
+    multipliers = square[FREE]
+    for r in range(FREE):
+        for k in range(r):
+            multipliers[r] -= square[r, k] * multipliers[k]
+        multipliers[r] /= square[r, r]
+    for r in range(FREE - 1, -1, -1):
+        for k in range(r + 1, FREE):
+            multipliers[r] -= square[k, r] * multipliers[k]
+        multipliers[r] /= square[r, r]
+    for i in range(n):
+        total = z[FREE, i]
+        for r in range(FREE):
+            total += multipliers[r] * z[r, i]
+        x[i] = -total
+    for i in range(nv, n):
+        x[i] /= math.sqrt(h[i, i])
+    for i in range(nv - 1, -1, -1):
+        for k in range(i + 1, nv):
+            x[i] -= lower[k, i] * x[k]
+        x[i] /= lower[i, i]
+    return meets_all(programme, a, n, m)
+
+
+@kernel
+def meets_all(programme, a, n, m):
+    """Whether `programme.x` meets every bound and every row of `a`."""
+    x, lower, upper = programme.x, programme.lower, programme.upper
+    for i in range(n):
+        if not lower[i] - MET <= x[i] <= upper[i] + MET:
+            return False
+    for r in range(m):
+        total = 0.0
+        for i in range(n):
+            total += a[r, i] * x[i]
+        if not lower[n + r] - MET <= total <= upper[n + r] + MET:
+            return False
+    return True
+
+
+@kernel
+def write_and_solve(handle):
+    """Write the programme of a tick and, where nothing binds, read its torques.
+
+    Args:
+        handle: Holds what `write_programme` takes, and torques and wrenches, filled where that is so.
+
+    Returns:
+        Number of unknowns, of rows, and whether the torques are there.
+    """
+    tree, state, dynamics, aims, limits, gains, programme, torques, wrenches = opened(handle)
+    n, m = write_programme(tree, state, dynamics, aims, limits, gains, programme)
+    solved = solve_equations(programme, n, m, FREE + tree.rotor.size)
+    if solved:
+        read_torques(
+            dynamics, aims, limits, programme, programme.a[: m * n].reshape(m, n), programme.x, torques, wrenches
+        )
+    return n, m, solved
+
+
+@kernel
+def read_solution(handle, m, x):
+    """`read_torques` of what the handle of `write_and_solve` holds, from a programme of so many rows and its solution."""
+    _, _, dynamics, aims, limits, _, programme, torques, wrenches = opened(handle)
+    read_torques(dynamics, aims, limits, programme, programme.a[: m * x.size].reshape(m, x.size), x, torques, wrenches)
+
+
+@kernel
 def read_torques(dynamics, aims, limits, programme, a, x, torques, wrenches):
     """Torques that the solution `x` takes, within the motors' limits, and its wrenches; `a` is the programme's matrix."""
     for limb in range(wrenches.shape[0]):
@@ -232,7 +344,7 @@ def read_torques(dynamics, aims, limits, programme, a, x, torques, wrenches):
             wrenches[limb, c] = x[programme.at[limb] + c] if bears else 0.0
     for k in range(torques.size):
         total = dynamics.bias[FREE + k]
-        for j in range(x.size):
+        for j in range(a.shape[1]):
             total += a[FREE + k, j] * x[j]
         torques[k] = min(limits.torque[k], max(-limits.torque[k], total))
 

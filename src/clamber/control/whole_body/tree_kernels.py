@@ -5,7 +5,7 @@ Forces and inertias are taken about the base's origin, so that numbers stay smal
 
 import math
 
-from ...compiled import inlined, kernel
+from ...compiled import inlined, kernel, opened
 from .tree import FREE
 
 
@@ -278,3 +278,10 @@ def work_out(tree, state, out):
     bias_forces(tree, out, 0.0, out.weight)
     mass_matrix(tree, out)
     tip_motion(tree, state, out)
+
+
+@kernel
+def look(handle):
+    """`work_out` of what a handle holds: a tree, its state and `Dynamics` first."""
+    held = opened(handle)
+    work_out(held[0], held[1], held[2])

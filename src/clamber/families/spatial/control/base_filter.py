@@ -6,6 +6,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from ....compiled import Handle
 from ....control.whole_body.tree import Dynamics, State, Tree
 from ....types import Floats, Ints
 from ....units import DEGREE
@@ -169,6 +170,7 @@ class BaseFilter:
         self._row, self._turned = np.zeros(n), s.encoder**2 * 3.0
         contacts = (LEAST, s.encoder, self._turned, s.gate)
         self._packed = Packed(gravity, noise, (*tracking, LAG), contacts, np.zeros(6))
+        self._handle: Handle | None = None
 
     def begin(self, rotation: Floats, position: Floats) -> None:
         """Begin at rest at a pose, with no contact."""
@@ -189,7 +191,9 @@ class BaseFilter:
 
     def follow(self, tree: Tree, body: Followed, sensed: Any, passed: float) -> None:
         """Take in the readings of a tick, `passed` [s] after those before; arguments as those of the kernel."""
-        self.slips += follow(tree, body, self.believed, sensed, self._packed, passed)
+        if self._handle is None or self._handle.held[0] is not sensed:
+            self._handle = Handle(sensed, tree, body, self.believed, self._packed)
+        self.slips += follow(self._handle, passed)
 
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""

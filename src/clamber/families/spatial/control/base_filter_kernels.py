@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ....compiled import kernel
+from ....compiled import kernel, opened
 from ....control.whole_body.tree import FREE
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from .turn_kernels import shift_by, turn_by
@@ -321,19 +321,18 @@ def take_height(belief, limb, place, normal, variance, row):
 
 
 @kernel
-def tell(belief, own, gyro, late, state):
-    """The state that is believed of now, into `state`.
+def tell(handle, late):
+    """The state that is believed of now.
 
     Args:
-        belief: As in `predict`, of `late` before now [s].
-        own: Joints as the encoders had them then.
-        gyro: Its reading, base frame [rad/s].
+        handle: Holds the readings; a belief, as in `predict`, of `late` before now; joints as the encoders had them then; and the
+            state, filled.
         late: By which sensors tell what was [s].
-        state: Filled.
     """
+    sensed, belief, own, state = opened(handle)
     r, s = belief.rotation, state.speed
     for a in range(3):
-        s[3 + a] = gyro[a] - belief.biases[a]
+        s[3 + a] = sensed.gyro[a] - belief.biases[a]
     x = late * (r[0, 0] * s[3] + r[0, 1] * s[4] + r[0, 2] * s[5])
     y = late * (r[1, 0] * s[3] + r[1, 1] * s[4] + r[1, 2] * s[5])
     z = late * (r[2, 0] * s[3] + r[2, 1] * s[4] + r[2, 2] * s[5])
@@ -350,20 +349,18 @@ def tell(belief, own, gyro, late, state):
 
 
 @kernel
-def follow(tree, body, belief, sensed, settings, passed):
+def follow(handle, passed):
     """Bring a belief up to date with the readings of a tick: joints, motion of the base, and tips that stay where they are.
 
     Args:
-        tree: The robot as it is believed to be.
-        body: Its joints, and what is worked out of them (`base_filter.Followed`), in place.
-        belief: As in `predict`.
-        sensed: The readings.
-        settings: Of the filter (`base_filter.Packed`).
+        handle: Holds the readings; the robot as it is believed to be; its joints, and what is worked out of them
+            (`base_filter.Followed`), in place; the belief, as in `predict`; and settings of the filter (`base_filter.Packed`).
         passed: Time since the readings before [s]; 0: none has passed.
 
     Returns:
         Number of tips that have slipped.
     """
+    sensed, tree, body, belief, settings = opened(handle)
     if passed > 0.0:
         predict(belief, sensed.gyro, sensed.accelerometer, settings.gravity, settings.noise, passed)
     own, (kept, period, lag), (least, spread, turned, gate) = body.own, settings.tracking, settings.contacts

@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
+from ....compiled import Handle
 from ....control.whole_body.law import BodyLaw, WholeBody
 from ....control.whole_body.programme import Gains, Limits
 from ....control.whole_body.tree import FREE, Dynamics, State, Tree
@@ -89,12 +90,11 @@ class DirectLaw(BodyLaw):
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
         super().__init__(tree, limits, gains, most_rows)
-        self._room = Room.of(self)
+        self._all = Handle(tree, self.state, self.dynamics, self.aims, limits, self._packed, Room.of(self))
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
-        of = self.tree, self.state, self.dynamics, self.aims, self.limits, self._packed, self._room
-        return self.torques if type(self).kernel(*of) else self._fail()
+        return self.torques if type(self).kernel(self._all) else self._fail()
 
 
 class OperationalSpace(DirectLaw):
@@ -144,15 +144,16 @@ class JointImpedance(BodyLaw):
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
         super().__init__(tree, limits, gains, most_rows)
-        self._room, self._reference = Room.of(self), Reference.of(tree)
+        self._reference = Reference.of(tree)
+        held = tree, self.state, self.dynamics, self.aims, limits, self._packed, Room.of(self)
+        self._all = Handle(*held, self._reference)
         self._begun = False
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
         if not self._begun:
             self._reference.state.joints[:], self._begun = self.state.joints, True
-        of = self.tree, self.state, self.dynamics, self.aims, self.limits, self._packed, self._room, self._reference
-        return self.torques if joint_impedance(*of) else self._fail()
+        return self.torques if joint_impedance(self._all) else self._fail()
 
 
 USUAL: Final = "whole-body"

@@ -2,15 +2,14 @@
 
 import math
 
-from ....compiled import kernel
+from ....compiled import kernel, opened
 from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, POSTURE_RATE, REST_RATE, SWING_RATE, SWINGS
-from ....control.whole_body.programme_kernels import wanted_base
+from ....control.whole_body.programme_kernels import factor, wanted_base
 from ....control.whole_body.tree import FREE
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from .task_kernels import (
     about,
     bear,
-    factor,
     meet,
     points,
     share_wrenches,
@@ -31,11 +30,12 @@ FARTHEST = 0.2
 
 
 @kernel
-def operational_space(tree, state, dynamics, aims, limits, gains, room):
-    """See `laws.OperationalSpace`; returns whether any contact bears."""
+def operational_space(handle):
+    """See `laws.OperationalSpace`, of what its handle holds; returns whether any contact bears."""
+    tree, state, dynamics, aims, limits, gains, room = opened(handle)
     lower, row, y, wanted = room.lower, room.row, room.y, room.wanted
     n = y.size
-    factor(dynamics.mass, lower)
+    factor(dynamics.mass, n, lower)
     wanted_base(state, aims, gains[BASE_RATE], wanted)
     rate = gains[POSTURE_RATE]
     for k in range(tree.rotor.size):
@@ -93,8 +93,9 @@ def shared(tree, dynamics, aims, limits, gains, room):
 
 
 @kernel
-def jacobian_transpose(tree, state, dynamics, aims, limits, gains, room):
-    """See `laws.JacobianTranspose`; returns whether any contact bears."""
+def jacobian_transpose(handle):
+    """See `laws.JacobianTranspose`, of what its handle holds; returns whether any contact bears."""
+    tree, state, dynamics, aims, limits, gains, room = opened(handle)
     mass, row, forces, wanted = dynamics.mass, room.row, room.forces, room.wanted
     wanted_base(state, aims, gains[BASE_RATE], wanted)
     for a in range(FREE):
@@ -178,8 +179,9 @@ def joint_rows(aims, work, room, gains, moving, y):
 
 
 @kernel
-def joint_impedance(tree, state, dynamics, aims, limits, gains, room, reference):
-    """See `laws.JointImpedance`; returns whether any contact bears."""
+def joint_impedance(handle):
+    """See `laws.JointImpedance`, of what its handle holds; returns whether any contact bears."""
+    tree, state, dynamics, aims, limits, gains, room, reference = opened(handle)
     note_holds(dynamics, aims, room)
     ideal, work, y = reference.state, reference.dynamics, room.y
     ideal.rotation[:], ideal.position[:] = aims.rotation, aims.position

@@ -2,7 +2,7 @@
 
 import math
 
-from ....compiled import inlined, kernel
+from ....compiled import inlined, kernel, opened
 from ....control.whole_body.programme import ARM, HOLDS, SWING_RATE
 from ....control.whole_body.tree import FREE
 
@@ -50,18 +50,6 @@ def solve_lower(lower, x):
         for j in range(i):
             x[i] -= lower[i, j] * x[j]
         x[i] /= lower[i, i]
-
-
-@kernel
-def factor(mass, lower):
-    """Cholesky factor of a mass matrix."""
-    n = mass.shape[0]
-    for i in range(n):
-        for j in range(i + 1):
-            total = mass[i, j]
-            for k in range(j):
-                total -= lower[i, k] * lower[j, k]
-            lower[i, j] = math.sqrt(total) if i == j else total / lower[j, j]
 
 
 @inlined
@@ -189,22 +177,26 @@ def bear(dynamics, aims, limits, room):
 
 
 @kernel
-def bear_loads(aims, felt, wrenches, touch, loads, pushing, fading, stand):
+def bear_loads(handle, touch, fading, stand, tick):
     """Count which tips feel something, and write what contacts are to bear in their own frames.
 
     Args:
-        aims: Of the law, in place.
-        felt: Readings in a row above `touch`, in place, shape (limbs,).
-        wrenches: By the tips' sensors, shape (limbs, 6).
+        handle: Holds the readings, the law's aims, in place, the state, and the limbs (`limbed_body.Limbs`), in place.
         touch: Force above which a tip feels something [N].
-        loads: Wrenches that contacts are to bear, world frame, shape (limbs, 6).
-        pushing: 1 of limbs that stand by friction alone, shape (limbs,).
         fading: The limb whose load fades before it lets go; -1: none.
         stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
+        tick: Number of this one.
+
+    Returns:
+        How far the base is from where it is to be [m].
     """
+    sensed, aims, state, limbs = opened(handle)
+    felt, loads, pushing = limbs.felt, limbs.loads, limbs.pushing
     for limb in range(felt.size):
-        x, y, z = wrenches[limb, 0], wrenches[limb, 1], wrenches[limb, 2]
+        x, y, z = sensed.wrenches[limb, 0], sensed.wrenches[limb, 1], sensed.wrenches[limb, 2]
         felt[limb] = felt[limb] + 1 if math.sqrt(x * x + y * y + z * z) > touch else 0
+        if felt[limb] > 0:
+            limbs.met[limb] = tick
         if aims.does[limb] != HOLDS:
             continue
         for axis in range(3):
@@ -215,39 +207,40 @@ def bear_loads(aims, felt, wrenches, touch, loads, pushing, fading, stand):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
+    off = 0.0
+    for a in range(3):
+        off += (aims.position[a] - state.position[a]) ** 2
+    return math.sqrt(off)
 
 
 @kernel
-def find_resting(does, holds, pushing, closed, resting):
-    """Index of the hold that each limb's tip stays on, -1: on none, into `resting`; an end effector that is open stays nowhere."""
-    for limb in range(does.size):
-        stays = does[limb] == HOLDS and (pushing[limb] or closed[limb] != 0)
-        resting[limb] = holds[limb] if stays else -1
+def find_resting(handle):
+    """The holds that tips stay on, of what the handle of `bear_loads` holds; an end effector that is open stays nowhere."""
+    sensed, aims, _, limbs = opened(handle)
+    for limb in range(aims.does.size):
+        stays = aims.does[limb] == HOLDS and (limbs.pushing[limb] or sensed.closed[limb] != 0)
+        limbs.resting[limb] = limbs.holds[limb] if stays else -1
 
 
 @kernel
-def count_open(holds, pushing, fading, closed, felt, sought, opened):
+def count_open(handle, fading):
     """Count the ticks for which each limb that is to hold on has not; whether any is to be looked at.
 
     Args:
-        holds: Index of the hold that each is to hold on to, -1: to none, shape (limbs,).
-        pushing: 1 of limbs that stand by friction alone, shape (limbs,).
+        handle: As in `bear_loads`.
         fading: The limb whose load fades before it lets go; -1: none.
-        closed: Switches of the end effectors, shape (limbs,).
-        felt: Readings in a row at which a tip felt something, shape (limbs,).
-        sought: How deep feet in the air have felt for their ground [m], NaN: they are not in the air. Shape (limbs,).
-        opened: The ticks, in place, shape (limbs,).
     """
-    some = False
-    for limb in range(holds.size):
-        if holds[limb] < 0 or (pushing[limb] and limb == fading):
-            opened[limb] = 0
-        elif not math.isnan(sought[limb]):
+    sensed, _, _, limbs = opened(handle)
+    pushing, ticks, some = limbs.pushing, limbs.open, False
+    for limb in range(ticks.size):
+        if limbs.holds[limb] < 0 or (pushing[limb] and limb == fading):
+            ticks[limb] = 0
+        elif not math.isnan(limbs.sought[limb]):
             some = True
         else:
-            on = felt[limb] if pushing[limb] else closed[limb]
-            opened[limb] = 0 if on else opened[limb] + 1
-            some = some or opened[limb] > 0
+            on = limbs.felt[limb] if pushing[limb] else sensed.closed[limb]
+            ticks[limb] = 0 if on else ticks[limb] + 1
+            some = some or ticks[limb] > 0
     return some
 
 

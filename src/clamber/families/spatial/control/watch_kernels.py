@@ -1,23 +1,24 @@
 """What a watch of a robot in space works with, as kernels: readings side by side, and torques and forces that nothing explains."""
 
-from ....compiled import kernel
+import math
+
+from ....compiled import kernel, opened
 from ....control.whole_body.programme import HOLDS
 from ....control.whole_body.tree import FREE
 
 
 @kernel
-def gather(sensed, torques, touch, does, owner, fresh, room):
+def gather(handle, touch, fresh):
     """The readings of a tick side by side.
 
     Args:
-        sensed: What the sensors say; of a reading that is no newer the switches become those before.
-        torques: Commanded since the reading before, shape (n,).
+        handle: Holds what the sensors say, of which in a reading that is no newer the switches become those before; torques commanded
+            since the reading before, shape (n,); what each limb does, shape (limbs,); the limb of each joint, shape (n,);
+            `sensor_watch.Room`, filled; and what `unexplained` needs besides.
         touch: A tip that feels less touches nothing [N].
-        does: What each limb does, shape (limbs,).
-        owner: Limb of each joint, shape (n,).
         fresh: Whether the reading is newer than those before.
-        room: `sensor_watch.Room`; filled.
     """
+    sensed, torques, does, owner, room, _ = opened(handle)
     n = torques.size
     for k in range(n):
         room.values[k] = sensed.joints[0, k]
@@ -63,13 +64,17 @@ def give_back(sensed, room):
 
 
 @kernel
-def count_repeats(room, units):
+def count_repeats(handle, units):
     """Looks on end at which each reading of a unit of three axes had repeated itself to the last bit while both others changed.
 
     Args:
-        room: `sensor_watch.Room`; `before` and `repeats` are changed.
+        handle: As in `gather`; `before` and `repeats` of its `sensor_watch.Room` are changed.
         units: First reading of each unit, shape (units,).
+
+    Returns:
+        The reading that has done so for longest.
     """
+    room, worst = opened(handle)[4], 0
     for unit in range(units.size):
         first = units[unit]
         for a in range(first, first + 3):
@@ -77,26 +82,30 @@ def count_repeats(room, units):
             for b in range(first, first + 3):
                 alone = alone and (b == a or room.values[b] != room.before[b])
             room.repeats[a] = room.repeats[a] + 1 if alone else 0
+            if room.repeats[a] > room.repeats[worst]:
+                worst = a
     for c in range(room.values.size):
         room.before[c] = room.values[c]
+    return worst
 
 
 @kernel
-def unexplained(sensed, torques, tree, mass, share, state, dynamics, rests):
+def unexplained(handle, mass, share):
     """What the motors' torques are beyond the weights and the tips' wrenches, and the forces beyond the whole weight, smoothed.
 
     At rest tau = g - J^T w: a motor that gives less than it is told leaves the rest at its own joint, a wrench that is off leaves some at
     all joints of its limb.
 
     Args:
-        sensed: What the sensors say.
-        torques: Commanded, shape (n,).
-        tree: The robot's.
+        handle: As in `gather`; besides it holds the robot's tree, its state and dynamics as believed, the motors' limits, and
+            `sensor_watch.Rests`, changed.
         mass: Of the robot [kg].
         share: Of what is new in the smoothed values [-].
-        state, dynamics: As believed.
-        rests: `sensor_watch.Rests`; changed.
+
+    Returns:
+        How far the forces are off [N], and the joint whose torque is by the largest part of its limit.
     """
+    sensed, torques, _, _, _, (tree, state, dynamics, limits, rests) = opened(handle)
     n, limbs = torques.size, sensed.closed.size
     rest, tips, push, gravity = rests.torques, rests.tips, rests.push, tree.gravity
     for b in range(3):
@@ -117,3 +126,10 @@ def unexplained(sensed, torques, tree, mass, share, state, dynamics, rests):
                     tips[b] += share * total
                 for k in range(n):
                     rest[k] += share * dynamics.jacobian[limb, 3 * part + b, FREE + k] * total
+    off, worst = 0.0, 0
+    for b in range(3):
+        off += (tips[b] - push[b]) ** 2
+    for k in range(1, n):
+        if abs(rest[k]) * limits[worst] > abs(rest[worst]) * limits[k]:
+            worst = k
+    return math.sqrt(off), worst

@@ -4,6 +4,7 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle
 from ....control.whole_body.tree import State, Tree
 from ....types import Floats, Ints
 from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
@@ -58,6 +59,7 @@ class EstimatedBase:
         self._spreads = np.full(len(world.holds), settings.hold)
         self._on = [-1] * limbs
         self._number = -1
+        self._told: Handle | None = None
         motors = Motors.of(robot)
         self._body = Followed.of(tree, FIRM * motors.torque, np.where(motors.sliding, 0.0, play / 2.0))
 
@@ -79,7 +81,9 @@ class EstimatedBase:
             for limb, hold in enumerate(now):
                 if hold != self._on[limb]:
                     self._change(limb, hold)
-        tell(self.filter.believed, self._body.own, sensed.gyro, self._late, state)
+        if self._told is None or self._told.held[0] is not sensed:
+            self._told = Handle(sensed, self.filter.believed, self._body.own, state)
+        tell(self._told, self._late)
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""

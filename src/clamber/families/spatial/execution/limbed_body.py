@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Callable
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
+from ....compiled import Handle
 from ....control.whole_body.programme import (
     FREE_LIMB,
     HOLDS,
@@ -42,6 +44,27 @@ SINGULAR: Final = 0.01
 """A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
+
+
+class Limbs(NamedTuple):
+    """What limbs hold on to and feel, as believed, shape (limbs,) each unless said otherwise; a NamedTuple, as kernels take it."""
+
+    holds: Ints
+    """Index of the hold that each holds on to; -1: none."""
+    resting: Ints
+    """The same of those whose tips stay there."""
+    pushing: npt.NDArray[np.bool_]
+    """Whether it stands by friction alone."""
+    loads: Floats
+    """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
+    felt: Ints
+    """Readings in a row above `touch`."""
+    met: Floats
+    """Tick of the last of them."""
+    open: Ints
+    """Ticks for which a limb that is to hold on has not."""
+    sought: Floats
+    """How deep feet in the air have felt for their ground [m]; NaN: they are not in the air."""
 
 
 class LostHoldError(Exception):
@@ -90,19 +113,25 @@ class LimbedBody:
         self.sensed = SpatialSensed.of(robot.chains)
         self.watch: Final = SensorWatch(robot, self.law, plant.period)
         self._guard: Guard | None = None
-        self.holds: Ints = np.full(limbs, -1, np.int32)
-        """Index of the hold that each limb holds on to, as believed; -1: none. Shape (limbs,)."""
-        self.loads: Floats = np.zeros((limbs, 6))
-        """Wrenches that contacts are to bear, world frame, shape (limbs, 6)."""
+        self._bears = [end.bears() for end in robot.ends]
+        self._limbs = of = Limbs(
+            holds=np.full(limbs, -1, np.int32),
+            resting=np.full(limbs, -1, np.int32),
+            pushing=np.array([not self.attaches(limb) for limb in range(limbs)]),
+            loads=np.zeros((limbs, 6)),
+            felt=np.zeros(limbs, np.int64),
+            met=np.full(limbs, -math.inf),
+            open=np.zeros(limbs, np.int64),
+            sought=np.full(limbs, math.nan),
+        )
+        self.holds, self.loads = of.holds, of.loads
+        """As `Limbs` has them."""
+        self._felt, self._met, self._open, self._sought = of.felt, of.met, of.open, of.sought
+        self._handle = Handle(self.sensed, self.law.aims, self.law.state, of)
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
         self.off = 0.0
         """How far it is from where it is to be, as believed [m]."""
-        self._resting, self._open = np.full(limbs, -1, np.int32), np.zeros(limbs, np.int64)
-        self._felt = np.zeros(limbs, np.int64)
-        """Readings in a row above `touch`, shape (limbs,)."""
-        self._met = np.full(limbs, -math.inf)
-        """Tick of the last of them, shape (limbs,)."""
         self.fading = -1
         """The limb whose load fades before it lets go; -1: none."""
         self.ticks = 0
@@ -114,12 +143,8 @@ class LimbedBody:
         self._push = np.zeros(limbs)
         self._aimed = np.zeros((limbs, 3))
         """Where tips are to be that press, deep as that may be [m], shape (limbs, 3)."""
-        self._sought = np.full(limbs, math.nan)
-        """How deep feet in the air have felt [m]."""
         self._ahead = State.of(tree)
         self._ahead_work = Dynamics.of(tree)
-        self._bears = [end.bears() for end in robot.ends]
-        self._pushing = np.array([not self.attaches(limb) for limb in range(limbs)])
 
     @property
     def time(self) -> float:
@@ -259,26 +284,23 @@ class LimbedBody:
             FaultError: If a sensor, a motor or the link has failed.
             PlantStoppedError: If the plant takes no more commands.
         """
-        law, aims = self.law, self.law.aims
+        law = self.law
         self.sensed = self.plant.sense()
         self.watch.see(self.sensed, self.holds)
         self._believe()
         if self._guard is not None:
             self._hold_posture(self._guard)
             return
-        pace, felt = self.pace, self.sensed.wrenches
-        bear_loads(aims, self._felt, felt, pace.touch, self.loads, self._pushing, self.fading, pace.stand)
-        self._met[self._felt > 0] = self.ticks
+        self.off = bear_loads(self._handle, self.pace.touch, self.fading, self.pace.stand, self.ticks)
         self._press(law.tick())
         self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
-        self.off = math.dist(aims.position, law.state.position)
         if self.told is not None:
             self.told()
         if self.off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * self.off:.0f} mm from where it is to be")
-        if count_open(self.holds, self._pushing, self.fading, self.sensed.closed, self._felt, self._sought, self._open):
+        if count_open(self._handle, self.fading):
             self._feel_holds()
 
     def brace(self) -> None:
@@ -354,6 +376,8 @@ class LimbedBody:
         aims.velocity[:] = aims.acceleration[:] = 0.0
 
     def _believe(self) -> None:
-        find_resting(self.law.aims.does, self.holds, self._pushing, self.sensed.closed, self._resting)
-        self.belief.update(self.sensed, self._resting, self.law.state)
+        if self._handle.held[0] is not self.sensed:
+            self._handle = Handle(self.sensed, self.law.aims, self.law.state, self._limbs)
+        find_resting(self._handle)
+        self.belief.update(self.sensed, self._limbs.resting, self.law.state)
         self.law.look()

@@ -16,7 +16,8 @@ from ....types import Floats
 from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
-from .references import PEAK_SPEED, BodyPath, TimeScaling, TipPath, quintic, rotation_vector, seconds_for, swing_seconds
+from .reference_kernels import quintic
+from .references import PEAK_SPEED, BodyPath, TimeScaling, TipPath, rotation_vector, seconds_for, swing_seconds
 
 SPEED: Final = 0.7
 """Of a joint's largest speed that motions may ask for [-]."""

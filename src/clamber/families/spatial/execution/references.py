@@ -1,14 +1,16 @@
 """Where a body and a swinging tip are to be at a moment, with speed and acceleration: quintics from rest to rest."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle
 from ....types import Floats
-from ..control.turn_kernels import turn_by, write_quaternion
+from ..control.turn_kernels import write_quaternion
 from ..statics.stance_kernels import OFF, RISE
+from .reference_kernels import body_at, direction_at, share_at, tip_at
 
 PEAK_SPEED: Final = 1.875
 """Of a quintic from rest to rest, of its way per its time [-] ..."""
@@ -16,14 +18,6 @@ PEAK: Final = 10.0 / math.sqrt(3.0)
 """... and of its acceleration, of its way per its squared time [-]."""
 EASING: Final = PEAK / PEAK_SPEED
 """Of the square of a path's rate, per share of the path: half of it times the peak speed is half the peak acceleration [-]."""
-
-
-def quintic(u: float) -> tuple[float, float, float]:
-    """Share of the way at a share of the time, and its first and second derivative; at rest before 0 and after 1."""
-    if u <= 0.0 or u >= 1.0:
-        return float(u >= 1.0), 0.0, 0.0
-    v = u * (1.0 - u)
-    return u**3 * (10.0 - 15.0 * u + 6.0 * u * u), 30.0 * v * v, 60.0 * v * (1.0 - 2.0 * u)
 
 
 def seconds_for(way: float, acceleration: float) -> float:
@@ -44,6 +38,12 @@ class BodyPath:
     turn: Floats
     """Axis times angle, world frame [rad], shape (3,)."""
     seconds: float
+    handle: Handle = field(init=False, repr=False)
+    """For kernels."""
+
+    def __post_init__(self) -> None:
+        made = Handle(self.position, self.rotation, self.way, self.turn, float(self.seconds))
+        object.__setattr__(self, "handle", made)
 
     @classmethod
     def between(cls, position: Floats, rotation: Floats, to: Floats, to_rotation: Floats, seconds: float) -> "BodyPath":
@@ -52,14 +52,9 @@ class BodyPath:
 
     def at(self, time: float) -> tuple[Floats, Floats, Floats, Floats]:
         """Position, rotation, velocity and acceleration, linear then angular, shapes (3,), (3, 3), (6,), (6,)."""
-        share, speed, acceleration = quintic(time / self.seconds)
-        both = np.concatenate((self.way, self.turn))
-        return (
-            self.position + share * self.way,
-            rotation_of(share * self.turn) @ self.rotation,
-            speed / self.seconds * both,
-            acceleration / self.seconds**2 * both,
-        )
+        made = np.empty(3), np.empty((3, 3)), np.empty(6), np.empty(6)
+        body_at(self.handle, time, *made)
+        return made
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -73,32 +68,27 @@ class TipPath:
     """At both, out of the surfaces, shape (2, 3)."""
     up: Floats
     """How far it is lifted at its highest [m], shape (3,)."""
+    handle: Handle = field(init=False, repr=False)
+    """For kernels."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "handle", Handle(self.start, self.end, self.normals, self.up))
 
     def at(self, u: float) -> tuple[Floats, Floats, Floats]:
         """Place, and its first and second derivative, at a share of the path [m], shape (3,) each."""
-        long = 1.0 - 2.0 * OFF
-        share, speed, acceleration = quintic((u - OFF) / long)
-        height, rate, curve = quintic((u if u < 0.5 else 1.0 - u) / RISE)
-        rate = rate if u < 0.5 else -rate
-        way, up = self.end - self.start, self.up
-        return (
-            self.start + share * way + height * up,
-            speed / long * way + rate / RISE * up,
-            acceleration / long**2 * way + curve / RISE**2 * up,
-        )
+        return self.moving(u, 1.0, 0.0)
 
     def moving(self, u: float, rate: float, quicker: float) -> tuple[Floats, Floats, Floats]:
         """Place, velocity and acceleration where the share grows by a rate [1/s], and that by another [1/s^2]."""
-        place, first, second = self.at(u)
-        return place, rate * first, rate * rate * second + quicker * first
+        made = np.empty((3, 3))
+        tip_at(self.handle, u, rate, quicker, made)
+        return made[0], made[1], made[2]
 
     def points(self, u: float) -> Floats:
         """Direction of an end effector that turns from the one inward normal to the other, shape (3,)."""
-        share = quintic(u)[0]
-        normal = self.normals[0] + share * (self.normals[1] - self.normals[0])
-        length = float(np.linalg.norm(normal))
-        found: Floats = -normal / length if length > 1e-6 else -self.normals[1]
-        return found
+        made = np.empty(3)
+        direction_at(self.handle, u, made)
+        return made
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -109,6 +99,11 @@ class TimeScaling:
     """At even shares of the path [s], shape (n,)."""
     rates: Floats
     """Of the share there [1/s], shape (n,)."""
+    handle: Handle = field(init=False, repr=False)
+    """For kernels."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "handle", Handle(self.times, self.rates))
 
     @classmethod
     def within(cls, seconds: float, least: Floats) -> "TimeScaling":
@@ -127,25 +122,13 @@ class TimeScaling:
 
     def at(self, time: float) -> tuple[float, float, float]:
         """Share, its rate and how that grows at a moment [-, 1/s, 1/s^2]."""
-        pieces = len(self.times) - 1
-        k = min(int(np.searchsorted(self.times, time, side="right")), pieces) - 1
-        start, rate = float(self.times[k]), float(self.rates[k])
-        quicker = (float(self.rates[k + 1]) - rate) / (float(self.times[k + 1]) - start)
-        since = time - start
-        return k / pieces + since * (rate + 0.5 * quicker * since), rate + quicker * since, quicker
+        found: tuple[float, float, float] = share_at(self.handle, time)
+        return found
 
 
 def swing_seconds(way: float, lift: float, acceleration: float) -> float:
     """That a lifted path takes so that neither part of it accelerates more [s]."""
     return max(seconds_for(way, acceleration) / (1.0 - 2.0 * OFF), seconds_for(lift, acceleration) / RISE)
-
-
-def rotation_of(vector: Floats) -> Floats:
-    """Rotation about an axis by an angle, both as one vector [rad], shape (3, 3)."""
-    made = np.eye(3)
-    x, y, z = vector.tolist()
-    turn_by(x, y, z, made)
-    return made
 
 
 def rotation_vector(rotation: Floats) -> Floats:

@@ -12,6 +12,7 @@ from typing import (
 import numpy as np
 import numpy.typing as npt
 
+from ....compiled import Handle
 from ....control.whole_body.law import BodyLaw
 from ....control.whole_body.programme import HOLDS
 from ....control.whole_body.tree import FREE
@@ -151,6 +152,7 @@ class SensorWatch:
         """Pair of limbs -> its holds, and how its tips lay to each other when both had come there, as believed [m]."""
         self._ticks, self._newest, self._debt = 0, -1, 0
         self._clock = -1
+        self._handle: Handle | None = None
 
     def see(self, sensed: SpatialSensed, holds: Ints) -> None:
         """Take in a tick's readings; those that are not to be believed are bridged, in place.
@@ -164,20 +166,15 @@ class SensorWatch:
         """
         monitor, law, number = self.monitor, self._law, int(sensed.number[0])
         fresh = number < 0 or number > self._newest
-        gather(
-            sensed,
-            law.torques,
-            self._pace.touch,
-            law.aims.does,
-            self._owner,
-            fresh,
-            self._room,
-        )
+        if self._handle is None or self._handle.held[0] is not sensed:
+            rest = law.tree, law.state, law.dynamics, self._limits, self._rests
+            self._handle = Handle(sensed, law.torques, law.aims.does, self._owner, self._room, rest)
+        gather(self._handle, self._pace.touch, fresh)
         try:
             monitor.see(number)
             self._ticks += 1
             if self._ticks % self._every == 0 and fresh and not monitor.closed:
-                self._look(sensed, holds)
+                self._look(self._handle, holds)
         except FaultError:
             if not monitor.closed:
                 raise
@@ -199,35 +196,23 @@ class SensorWatch:
             self._clock += 1
             self._debt += 1
 
-    def _look(self, sensed: SpatialSensed, holds: Ints) -> None:
+    def _look(self, handle: Handle, holds: Ints) -> None:
         """See what sensors and motors say together.
 
         Raises:
             FaultError: If one of them is off.
         """
-        law, monitor, room = self._law, self.monitor, self._room
-        count_repeats(room, self._units)
-        if room.repeats.max() >= self._repeats:
-            c = int(room.repeats.argmax())
+        c = count_repeats(handle, self._units)
+        if self._room.repeats[c] >= self._repeats:
             self._fail("no answer", c, "sensor stuck: it says the same while the others of its unit change")
-        unexplained(
-            sensed,
-            law.torques,
-            law.tree,
-            self._mass,
-            self._share,
-            law.state,
-            law.dynamics,
-            self._rests,
-        )
-        if monitor.clear > self._patience * self._every:
-            self._look_at_torques()
+        off, worst = unexplained(handle, self._mass, self._share)
+        if self.monitor.clear > self._patience * self._every:
+            self._look_at_torques(off / self._pace.weight, worst)
         if self._ticks % (TIPS_EVERY * self._every) == 0:
             self._look_at_tips(holds)
 
-    def _look_at_torques(self) -> None:
-        """Whether motors, force sensors and accelerometer agree."""
-        off = math.dist(self._rests.tips, self._rests.push) / self._pace.weight
+    def _look_at_torques(self, off: float, c: int) -> None:
+        """Whether motors, force sensors and accelerometer agree, by how many weights forces are off, and a joint's torque."""
         self._off = self._off + 1 if off > UNBALANCED else 0
         if self._off > self._patience:
             self._fail(
@@ -235,11 +220,10 @@ class SensorWatch:
                 self._off_sensor(),
                 f"sensor off: the tips bear {off:.1f} weights more or less than there are",
             )
-        parts = np.abs(self._rests.torques) / self._limits
-        c = int(parts.argmax())
-        self._weak = self._weak + 1 if parts[c] > WEAK else 0
+        part = abs(float(self._rests.torques[c])) / float(self._limits[c])
+        self._weak = self._weak + 1 if part > WEAK else 0
         if self._weak > self._patience and not self._off:
-            told = f"{100.0 * parts[c]:.0f} % of its largest torque are told it, and nothing bears them"
+            told = f"{100.0 * part:.0f} % of its largest torque are told it, and nothing bears them"
             self._fail("unbalanced", c, f"motor dead or weak: {told}")
 
     def _off_sensor(self) -> int:

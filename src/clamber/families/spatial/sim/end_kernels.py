@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-from ....compiled import inlined, kernel
+from ....compiled import inlined, kernel, opened
+from ....sim.electronics import limit_torques
 from ..control.turn_kernels import write_axes
 
 CONE, PAD, HOOK, SPINE = range(4)
@@ -37,6 +38,7 @@ END = np.dtype(
         ("moments", "i8"),
         ("touch", "f8"),  # forces below it neither slip nor leave where nothing pulls [N]
         ("capture", "f8"),  # from how far it attaches [m], 0: it only pushes
+        ("near", "f8"),  # from how far what is to attach is looked at [m]
         ("nearest", "i8"),  # index of the hold whose patch is nearest, -1: there is none
         ("gap", "f8"),  # distance from that patch [m]
         ("under", "i8"),  # index of the hold whose patch is beneath it
@@ -107,19 +109,11 @@ def dot(a, b):
 
 
 @kernel
-def feel_ends(ends, axes, sites, readings, shutting, wrenches, local, given):
-    """What acts on every tip, and what gives way; whether anything does.
-
-    Args:
-        ends: Records of `END`; `over` is counted.
-        axes: Of all sites in the world, row by row, shape (sites, 9).
-        sites: Of the end effectors, shape (limbs,).
-        readings: Force and moment of what carries each tip on it, in its own frame, shape (limbs, 6).
-        shutting: Ticks until jaws have shut: what they draw with themselves is not counted. Shape (limbs,).
-        wrenches: Filled: of the surface on each tip, world frame, shape (limbs, 6).
-        local: Filled: the same in the end effector's frame.
-        given: Filled: what gives way (`WORDS`), shape (limbs,); `HOLDS` of those that are not attached.
-    """
+def feel_ends(handle):
+    """What acts on every tip, and what gives way, of what the handle of an `ends.Seen` holds; whether anything does."""
+    seen = opened(handle)[0]
+    ends, axes, sites, readings, given = seen.ends, seen.axes, seen.sites, seen.readings, seen.given
+    shutting, wrenches, local = seen.shutting, seen.wrenches, seen.local
     some = False
     for limb in range(ends.shape[0]):
         end = ends[limb]
@@ -160,21 +154,20 @@ def feel_ends(ends, axes, sites, readings, shutting, wrenches, local, given):
 
 
 @kernel
-def nearest_holds(tips, sites, ends, places, normals, radii):
-    """The hold whose patch is nearest each tip; whether that is another than before, or a tip that may attach is attached to none.
+def nearest_holds(handle):
+    """The hold whose patch is nearest each tip, of what the handle of an `ends.Seen` holds: one that is attached stays at its own.
 
-    Args:
-        tips: Of all sites, world frame [m], shape (sites, 3).
-        sites: Of the tips, shape (limbs,).
-        ends: Records of `END`: the hold that each is attached to stays its nearest; `nearest` and `gap` are filled.
-        places, normals: Of the holds, shape (holds, 3); normals out of the surface.
-        radii: Of their patches [m], shape (holds,); negative: the hold is no more.
+    Returns:
+        Bits of the limbs to look at: that is another than before, a tip that may attach is near a hold and attached to none, or jaws shut.
     """
-    some = False
+    seen = opened(handle)[0]
+    tips, sites, ends, places, normals, radii = seen.tips, seen.sites, seen.ends, seen.places, seen.normals, seen.radii
+    some = 0
     for limb in range(sites.size):
         end = ends[limb]
         if end.hold >= 0:
-            some = some or end.nearest != end.under
+            if end.nearest != end.under or seen.shutting[limb] > 0:
+                some |= 1 << limb
             continue
         tip = tips[sites[limb]]
         nearest = -1
@@ -193,8 +186,59 @@ def nearest_holds(tips, sites, ends, places, normals, radii):
                 best = gap
                 nearest = k
         end.nearest, end.gap = nearest, best
-        some = some or end.capture > 0.0 or nearest != end.under
+        if (end.capture > 0.0 and best < end.near) or nearest != end.under:
+            some |= 1 << limb
     return some
+
+
+@kernel
+def all_finite(handle):
+    """Whether all numbers are of the one array that a handle holds."""
+    total, numbers = 0.0, opened(handle)[0]
+    for k in range(numbers.size):
+        total += numbers[k]
+    return math.isfinite(total)
+
+
+@kernel
+def true_motion(handle, turn, velocity, joints):
+    """How a robot really is and moves.
+
+    Args:
+        handle: Holds MuJoCo's `qpos` and `qvel`, the joints' places in both, and those of the plays of joints; -1: it has none.
+        turn: Filled: the base's axes, as columns, shape (3, 3).
+        velocity: Filled: of the base's origin, then angular, world frame, shape (6,).
+        joints: Filled: positions and speeds at the outputs of the gears, shape (2, n).
+    """
+    qpos, qvel, at, speed_at, play_at, play_speed_at = opened(handle)
+    write_axes(qpos[3:7], turn)
+    for a in range(3):
+        velocity[a], velocity[3 + a] = qvel[a], 0.0
+        for b in range(3):
+            velocity[3 + a] += turn[a, b] * qvel[3 + b]
+    for k in range(at.size):
+        joints[0, k], joints[1, k] = qpos[at[k]], qvel[speed_at[k]]
+        if play_at[k] >= 0:
+            joints[0, k] += qpos[play_at[k]]
+            joints[1, k] += qvel[play_speed_at[k]]
+
+
+@kernel
+def drive_motors(handle, time):
+    """What motors give at their joints' speeds, onto the joints; whether that may be held for a time [s], as `limit_torques` has it.
+
+    Args:
+        handle: Holds MuJoCo's `qvel`, the joints' places in it, speeds as scratch, torques asked for, limits, speeds without load and
+            agility as in `limit_torques`, what it fills, and MuJoCo's `ctrl`, filled.
+        time: The time [s].
+    """
+    qvel, at, speeds, wanted, limits, no_load, agility, given, also, control = opened(handle)
+    for k in range(at.size):
+        speeds[0, k] = qvel[at[k]]
+    steady = limit_torques(wanted, speeds, limits, no_load, agility, time, given, also)
+    for k in range(at.size):
+        control[k] = given[0, k]
+    return steady
 
 
 @kernel
@@ -222,18 +266,18 @@ def mean_motion(read, seconds):
 
 
 @kernel
-def read_sensors(read, noise, force_noise, tick, passed, period, sensed):
+def read_sensors(handle, noise, force_noise, tick, passed, period):
     """What all sensors say at a tick, after their delay.
 
     Args:
-        read: What is read, and what is kept of readings (`sensing.Read`).
+        handle: Holds what is read, and what is kept of readings (`sensing.Read`), and what is said, filled.
         noise: Of the inertial unit, with its biases, shape (6,).
         force_noise: Of the wrenches, shape (limbs, 6).
         tick: Number of this reading, from 0.
         passed: Time since the reading before [s]; 0: this is that one again.
         period: Of the control [s].
-        sensed: Filled.
     """
+    read, sensed = opened(handle)
     depth = read.joints.shape[0]
     now, late = tick % depth, max(0, tick - depth + 1) % depth
     for k in range(read.at.size):

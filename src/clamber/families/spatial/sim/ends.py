@@ -2,10 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
+from ....compiled import Handle
 from ....control.quintic import quintic_share
 from ....execution.plant import HoldBreak
 from ....types import Floats, Ints
@@ -27,6 +29,35 @@ SEATED: Final = 1e-5
 """A tip that is so near where it belongs is not drawn there [m]."""
 FAR: Final = 1e3
 """Where patches are of limbs near no hold [m]."""
+
+
+class Seen(NamedTuple):
+    """End effectors, what they feel and the holds around them; a NamedTuple, as kernels take it."""
+
+    ends: npt.NDArray[np.void]
+    """Records of `END`, shape (limbs,)."""
+    axes: Floats
+    """Of all sites in the world, row by row, shape (sites, 9)."""
+    tips: Floats
+    """Where all sites are, world frame [m], shape (sites, 3)."""
+    sites: Ints
+    """Of the end effectors, shape (limbs,)."""
+    readings: Floats
+    """Force and moment of what carries each tip on it, in its own frame, shape (limbs, 6)."""
+    shutting: Ints
+    """Ticks until jaws have shut: what they draw with themselves is not counted. Shape (limbs,)."""
+    wrenches: Floats
+    """Of the surface on each tip, world frame [N], [N m], shape (limbs, 6)."""
+    local: Floats
+    """The same in the end effector's frame."""
+    given: Ints
+    """What gives way (`WORDS`); `HOLDS` of those that are not attached. Shape (limbs,)."""
+    places: Floats
+    """Of the holds [m], shape (holds, 3)."""
+    normals: Floats
+    """Out of their surfaces, shape (holds, 3)."""
+    radii: Floats
+    """Of their patches [m], shape (holds,); negative: the hold is no more."""
 
 
 class Ends:
@@ -87,14 +118,13 @@ class Ends:
             [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body] for body in self._bodies
         ]
         self._bits = [int(model.geom_contype[balls[0]]) for balls in self._balls]
-        self._readings = data.sensordata.reshape(n, 6)
         self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
         self.wrenches: Final = np.zeros((n, 6))
         """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
         self.local: Final = np.zeros((n, 6))
         """The same in the end effector's frame."""
-        self._given = np.zeros(n, np.int64)
         self._ends["capture"], self._ends["under"] = self._capture, -2
+        self._ends["near"] = 2.0 * self._capture + [self._reach(limb) for limb in range(n)]
         self._nearest, self._under, self._gaps = (self._ends[key] for key in ("nearest", "under", "gap"))
         self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
         self.shutting: Final = np.zeros(n, np.int32)
@@ -109,6 +139,21 @@ class Ends:
         self.broken: tuple[HoldBreak, ...] = ()
         """Since the reset."""
         self._chance = np.random.default_rng(flaws.seed)
+        seen = Seen(
+            ends=self._ends,
+            axes=data.site_xmat,
+            tips=data.site_xpos,
+            sites=sites,
+            readings=data.sensordata.reshape(n, 6),
+            shutting=self.shutting,
+            wrenches=self.wrenches,
+            local=self.local,
+            given=np.zeros(n, np.int64),
+            places=self._places,
+            normals=self._normals,
+            radii=self._radii,
+        )
+        self._given, self._handle = seen.given, Handle(seen)
 
     @property
     def attached(self) -> Ints:
@@ -157,17 +202,19 @@ class Ends:
 
     def look(self) -> None:
         """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""
-        if nearest_holds(self._site_places, self._sites, self._ends, self._places, self._normals, self._radii):
+        limbs = nearest_holds(self._handle)
+        if limbs:
             for limb, hold in enumerate(self._nearest.tolist()):
+                if not limbs >> limb & 1:
+                    continue
                 if hold != self._under[limb]:
                     self._put_beneath(limb, hold)
                 if self._capture[limb] and self._ends["hold"][limb] < 0:
                     self._open_recess(limb, hold)
                     if self._wanted[limb] and not self._spent[limb] and self._catches(limb, hold):
                         self._take(limb, hold)
-        if self.shutting.any():
-            for limb in np.flatnonzero(self.shutting).tolist():
-                self._shut(limb)
+                if self.shutting[limb]:
+                    self._shut(limb)
 
     def _take(self, limb: int, hold: int) -> None:
         """Attach a limb, unless the attempt fails."""
@@ -178,9 +225,7 @@ class Ends:
 
     def feel(self, time: float) -> None:
         """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
-        if feel_ends(
-            self._ends, self._site_axes, self._sites, self._readings, self.shutting, self.wrenches, self.local, self._given
-        ):  # fmt: skip
+        if feel_ends(self._handle):
             for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
                 self._come_off(limb, time)
 

@@ -1,19 +1,15 @@
 """A robot in space in MuJoCo as a plant: encoders, IMU, tip forces and switches in; torques and commands to end effectors out."""
 
-import math
 from collections.abc import Sequence
 from typing import Any, Final
 
 import numpy as np
 
+from ....compiled import Handle
 from ....execution.plant import PlantStoppedError
-from ....sim.electronics import (
-    limit_torques,
-    take_torques,
-)
+from ....sim.electronics import take_torques
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
-from ..control.turn_kernels import write_axes
 from ..execution.plant import (
     Pose,
     SpatialSensed,
@@ -22,6 +18,7 @@ from ..execution.plant import (
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
+from .end_kernels import all_finite, drive_motors, true_motion
 from .ends import Ends
 from .sensing import Sensing
 from .spatial_flaws import Deviations, SpatialFlaws
@@ -69,7 +66,7 @@ class SpatialSim:
         n = len(names)
         joints = [model.joint(name) for name in names]
         # views of memory that stays where it is: asking for one costs a microsecond
-        self._qpos, self._qvel, self._ctrl = data.qpos, data.qvel, data.ctrl
+        self._qpos, self._qvel = data.qpos, data.qvel
         self._seen = mujoco.MjData(model)
         self._at = np.array([joint.qposadr[0] for joint in joints])
         self._speed_at = np.array([joint.dofadr[0] for joint in joints])
@@ -77,18 +74,24 @@ class SpatialSim:
         """As the robot's files have them."""
         motors = self.motors
         sliding = motors.sliding
-        self._played = np.flatnonzero(~sliding) if flaws.backlash > 0.0 else np.zeros(0, np.intp)
-        plays = [model.joint(play_name(names[k])) for k in self._played]
+        played = np.flatnonzero(~sliding) if flaws.backlash > 0.0 else np.zeros(0, np.intp)
+        plays = [model.joint(play_name(names[k])) for k in played]
         self._play_at = np.array([play.qposadr[0] for play in plays], np.intp)
-        self._play_speed_at = np.array([play.dofadr[0] for play in plays], np.intp)
-        self._limits, self._no_load = motors.torque, motors.speed
+        play_at, play_speed_at = np.full(n, -1), np.full(n, -1)
+        play_at[played], play_speed_at[played] = self._play_at, [play.dofadr[0] for play in plays]
+        self._motion = Handle(data.qpos, data.qvel, self._at, self._speed_at, play_at, play_speed_at)
+        self._numbers = Handle(data.qpos)
         with np.errstate(divide="ignore"):
-            self._agility = (
-                2.0 * self._limits / motors.rotor
+            agility = (
+                2.0 * motors.torque / motors.rotor
             )  # a load on the motor's side brings no more than the motor itself
         counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
         self._names = names
-        self._wanted, self._given, self._also = np.zeros((1, n)), np.zeros((1, n)), np.zeros((1, n))
+        self._wanted, self._given = np.zeros((1, n)), np.zeros((1, n))
+        self._motors = Handle(
+            data.qvel, self._speed_at, np.zeros((1, n)), self._wanted, motors.torque, motors.speed, agility, self._given,
+            np.zeros((1, n)), data.ctrl,
+        )  # fmt: skip
         self.ends: Final = Ends(robot, world, true.deviations, flaws, model, data)
         self._sensing = Sensing(
             chains,
@@ -196,7 +199,7 @@ class SpatialSim:
             for _ in range(self.flaws.steps):
                 self._drive(0.0)
                 self._step(self.model, self._data, 1)
-        if not math.isfinite(self._qpos.sum()):
+        if not all_finite(self._numbers):
             raise PlantStoppedError("the simulation has lost its numbers")
         self.tick += 1
         self.ends.feel(self.time)
@@ -212,26 +215,18 @@ class SpatialSim:
 
     def _drive(self, time: float) -> bool:
         """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
-        speeds = self._qvel[None, self._speed_at]
-        steady: bool = limit_torques(
-            self._wanted, speeds, self._limits, self._no_load, self._agility, time, self._given, self._also
-        )
-        self._ctrl[:] = self._given[0]
-        return steady
+        return bool(drive_motors(self._motors, time))
 
     def truth(self) -> SpatialTruth:
         """How things really are; a look leaves the simulation as it is."""
         seen = self._seen
         seen.qpos[:] = self._qpos
         self._mujoco.mj_kinematics(self.model, seen)
-        turn = np.empty((3, 3))
-        write_axes(self._qpos[3:7], turn)
-        joints = np.stack((self._qpos[self._at], self._qvel[self._speed_at]))
-        joints[0, self._played] += self._qpos[self._play_at]
-        joints[1, self._played] += self._qvel[self._play_speed_at]
+        turn, velocity, joints = np.empty((3, 3)), np.empty(6), np.empty((2, len(self._at)))
+        true_motion(self._motion, turn, velocity, joints)
         return SpatialTruth(
             pose=Pose(turn, self._qpos[:3].copy()),
-            velocity=np.concatenate((self._qvel[:3], turn @ self._qvel[3:6])),
+            velocity=velocity,
             joints=joints,
             tips=seen.site_xpos[self._sites].copy(),
             wrenches=self.ends.wrenches.copy(),
