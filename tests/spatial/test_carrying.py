@@ -17,7 +17,7 @@ from clamber.families.spatial.dynamics import DYNAMICS
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, regrab, rest, scaled, share_loads
+from clamber.families.spatial.execution.motions import SPEED, regrab, rest, scaled, share_loads, take
 from clamber.families.spatial.execution.references import (
     BodyPath,
     TimeScaling,
@@ -27,6 +27,7 @@ from clamber.families.spatial.execution.references import (
     swing_seconds,
 )
 from clamber.families.spatial.execution.run_trace import RunTrace
+from clamber.families.spatial.execution.sensor_watch import WANDERED
 from clamber.families.spatial.execution.settings import Pace
 from clamber.families.spatial.planning.swing_loads import SwingLoads
 from clamber.families.spatial.planning.task import SpatialTask
@@ -163,9 +164,11 @@ def test_a_robot_carries_its_first_steps_out(name: str) -> None:
     assert np.array_equal(again.true_pose, run.trace.true_pose)
 
 
-def standing_body(task: SpatialTask, start: Standing, flaws: SpatialFlaws | None = None) -> LimbedBody:
+def standing_body(
+    task: SpatialTask, start: Standing, flaws: SpatialFlaws | None = None, deviations: Deviations | None = None
+) -> LimbedBody:
     """A robot that stands at rest, as it would at the start of a run."""
-    plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws())
+    plant = SpatialSim(task.robot, task.world, flaws or SpatialFlaws(), deviations)
     belief = EstimatedBase(task.robot, task.world, believed_tree(task.robot, task.world.gravity), plant.period)
     body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     body.start(start)
@@ -319,10 +322,62 @@ def test_a_foot_that_meets_its_ground_does_not_slide_along_it(name: str) -> None
         assert slid(task, motion) < 0.006 * Pace.of(task.robot).size
 
 
+def first_regrab(name: str) -> tuple[SpatialTask, Regrab]:
+    """A task, and the first limb that its plan moves."""
+    task, plan = first_steps(name, grabs=1)
+    return task, next(motion for motion in Course.of(task, plan).motions if isinstance(motion, Regrab))
+
+
+def test_a_foot_that_comes_down_beside_its_stone_finds_it() -> None:
+    """A stone that truly lies its radius and 2 mm aside: the ground there is far deeper, and a foot would stand on it."""
+    task, motion = first_regrab("rubble-hexapod")
+    world, hold = task.world, motion.hold
+    normal, radius, tries = world.normals[hold], world.holds[hold].radius, []
+    for turn in np.arange(0.0, 2.0 * np.pi, 0.5 * np.pi):
+        across = np.cross(normal, (np.cos(turn), np.sin(turn), 0.0))
+        true = Deviations.none(task.robot, world)
+        places = true.places.copy()
+        places[hold] += (radius + 0.002) * across / np.linalg.norm(across)
+        body = standing_body(task, motion.before, deviations=replace(true, places=places))
+        landing = regrab(body, motion)
+        deep = float((world.places[hold] - body.tips[motion.limb]) @ normal)
+        assert landing.taken and deep < body.pace.deep
+        tries.append(landing.tries)
+    assert max(tries) > 1, "another stone was everywhere beside it"
+
+
+def test_a_foot_that_takes_its_hold_anew_elsewhere_is_told_as_no_drift() -> None:
+    task, motion = first_regrab("stones-quadruped")
+    body, limb = standing_body(task, motion.before), motion.limb
+    hold = int(motion.before.holds[limb])
+    normals = task.world.normals[[hold, hold]]
+    aside = 2.0 * WANDERED * body.pace.size * np.linalg.svd(normals[:1])[2][1]
+    rest(body, 0.5)
+    share_loads(body, motion.loads, limb, fading=True)
+    body.let_go(limb)
+    body.belief.places[hold] += aside
+    assert take(body, limb, hold, normals, motion.before.loads, motion.before.joints).taken
+    rest(body, 1.0)
+    assert not body.watch.monitor.findings
+
+
+def test_a_foot_stands_where_its_ground_is_least_deep_if_all_of_it_is_deeper_than_believed() -> None:
+    task, motion = first_regrab("stones-quadruped")
+    size, true = Pace.of(task.robot).size, Deviations.none(task.robot, task.world)
+    places = true.places.copy()
+    places[motion.hold] -= 0.06 * size * task.world.normals[motion.hold]
+    body = standing_body(task, motion.before, deviations=replace(true, places=places))
+    landing = regrab(body, motion)
+    assert landing.taken and landing.tries == body.pace.tries + 1
+    rest(body, 0.5)
+    truth = body.plant.truth()
+    assert truth is not None
+    assert float(truth.wrenches[motion.limb, :3] @ task.world.normals[motion.hold]) > body.pace.touch
+
+
 def test_the_noise_of_a_force_sensor_is_no_ground() -> None:
     """A reading in twenty is above what a foot stands at: each swing would end in the air by one of them."""
-    task, plan = first_steps("rubble-hexapod", grabs=1)
-    motion = next(motion for motion in Course.of(task, plan).motions if isinstance(motion, Regrab))
+    task, motion = first_regrab("rubble-hexapod")
     body = standing_body(task, motion.before, SpatialFlaws(force_noise=0.007, seed=2))
     rest(body, 0.1)
     stands: list[bool] = []

@@ -38,6 +38,8 @@ OPEN: Final = 3
 """Ticks after which a switch is believed that says that an end effector has come off."""
 FELT: Final = 3
 """Readings in a row by which a foot feels its ground."""
+SURE: Final = 1.5
+"""With what a foot is pressed on that has felt its ground, of the force by which it feels it [-]."""
 LIFTED: Final = 0.1
 """A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
 SINGULAR: Final = 0.01
@@ -253,7 +255,10 @@ class LimbedBody:
         aims.does[limb] = SWINGS
         aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb] = path
         self._aimed[limb] = path[0]
-        if self._presses and not self._in_air(limb):
+        on = self._presses and not self._in_air(limb)
+        if self._limbs.pushing[limb]:
+            self._push[limb] = SURE * self.pace.touch if on else 0.0
+        if on:
             # The spring of `_press` alone presses: the limb's inertia would push along a stretched limb, and slide it
             normal = self._pressed[limb]
             aims.tip[limb] += float((self.tips[limb] - path[0]) @ normal) * normal
@@ -354,13 +359,14 @@ class LimbedBody:
 
     def _seek(self, limb: int, hold: int) -> None:
         """Feel on along the inward normal for what a foot stood on."""
-        if self.feels(limb):
+        aims, inward = self.law.aims, -self.world.normals[hold]
+        deep = float((self.tips[limb] - self.places[limb]) @ inward)
+        if self.feels(limb) and deep <= self.pace.deep:
             self.hold_on(limb, hold)
             return
-        aims, inward = self.law.aims, -self.world.normals[hold]
         velocity = self.pace.approach * inward
         self._sought[limb] += self.pace.approach * self.plant.period
-        if self._sought[limb] > self.pace.depth:
+        if max(deep, float(self._sought[limb])) > self.pace.deep:
             self.let_go(limb)
             raise LostHoldError(limb, hold)
         swings = aims.does[limb] == SWINGS

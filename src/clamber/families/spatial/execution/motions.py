@@ -131,16 +131,17 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
         loads: Of the contacts once it holds on, world frame, shape (limbs, 6).
         posture: That the joints lean to then, shape (n,).
     """
-    place = body.belief.places[hold].copy()
-    reason = f"nothing to hold on to within {1e3 * body.pace.depth:.0f} mm"
-    for tries, beside in enumerate(_beside(body, normals[1]), start=1):
-        end = place + beside
-        start = body.tips[limb].copy()
-        up = lift_between(np.stack((start, end)), normals, body.lift)
-        seconds = swing_seconds(float(np.linalg.norm(end - start)), float(np.linalg.norm(up)), body.pace.swing)
-        path = TipPath(start, end, normals, up)
-        _swing(body, limb, path, scaled(body, limb, path, posture, seconds), posture)
-        if _approach(body, limb, path):
+    place, pace = body.belief.places[hold].copy(), body.pace
+    reason = f"nothing to hold on to within {1e3 * pace.depth:.0f} mm"
+    ways, deeper, tries = list(_beside(body, normals[1])), list[tuple[float, int]](), 0
+    while tries < len(ways):
+        end = place + ways[tries]
+        tries += 1
+        landed = _land(body, limb, end, normals, posture)
+        deep = float((end - body.tips[limb]) @ normals[1])
+        if landed and deep > pace.deep and not body.attaches(limb) and tries <= pace.tries:  # beside the hold, it seems
+            deeper.append((deep, tries - 1))
+        elif landed:
             body.hold_on(limb, hold)
             off = float(np.linalg.norm(body.tips[limb] - place))
             try:
@@ -153,7 +154,19 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
         body.plant.grip(limb, False)
         body.let_go(limb)
         normals = np.stack((normals[1], normals[1]))
-    return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), body.pace.tries, reason)
+        if tries == pace.tries and deeper:  # all of it is deeper than believed: where it is least so
+            ways.append(ways[min(deeper)[1]])
+    return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), tries, reason)
+
+
+def _land(body: LimbedBody, limb: int, end: Floats, normals: Floats, posture: Floats) -> bool:
+    """A limb swings to a place [m] and feels for a hold there; whether it has found one."""
+    start = body.tips[limb].copy()
+    up = lift_between(np.stack((start, end)), normals, body.lift)
+    seconds = swing_seconds(float(np.linalg.norm(end - start)), float(np.linalg.norm(up)), body.pace.swing)
+    path = TipPath(start, end, normals, up)
+    _swing(body, limb, path, scaled(body, limb, path, posture, seconds), posture)
+    return _approach(body, limb, path)
 
 
 def scaled(body: LimbedBody, limb: int, path: TipPath, posture: Floats, seconds: float) -> TimeScaling:

@@ -239,14 +239,16 @@ class SensorWatch:
         """Whether tips have moved against each other that are on their holds."""
         aims, tips = self._law.aims, self._law.dynamics.tip
         wandered: list[Wandered] = []
+        came, self._came = self._came, {}  # a limb that was off its hold meanwhile may have come to another place of it
         for pair in combinations(np.flatnonzero((aims.does == HOLDS) & (holds >= 0)).tolist(), 2):
             i, k = pair
             between, on = tips[i] - tips[k], (int(holds[i]), int(holds[k]))
-            known = self._came.get(pair)
+            known = came.get(pair)
             if known is None or known[0] != on:
-                self._came[pair] = on, between
+                known = on, between
             elif np.linalg.norm(between - known[1]) > WANDERED * self._pace.size:
                 wandered.append((pair, known[1], between))
+            self._came[pair] = known
         self._wandered = self._wandered + 1 if wandered else 0
         if self._wandered > self._wandering:
             self._tell_wandered(wandered)

@@ -39,6 +39,8 @@ class Pace:
     """Speed of a tip that feels for its hold [m/s]."""
     depth: float
     """How far beyond its hold it feels [m]."""
+    deep: float
+    """A foot that finds its ground so much deeper than its hold looks for it beside first [m]."""
     lost: float
     """A body that is so far from where it is to be has fallen [m]."""
 
@@ -66,5 +68,6 @@ class Pace:
             pressing=how.press * weight / (how.depth * size),
             approach=how.approach * math.sqrt(size * agile),
             depth=how.depth * size,
+            deep=how.deep * size,
             lost=how.lost * size,
         )

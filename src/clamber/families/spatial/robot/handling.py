@@ -44,6 +44,8 @@ class Handling:
     """Speed of a tip that feels for its hold, of what the agility gives over the length of a limb [-]."""
     depth: PositiveRatio = 0.1
     """How far beyond its hold it feels, of the length of a limb [-]."""
+    deep: PositiveRatio = 0.04
+    """A foot that finds its ground so much deeper than its hold looks for it beside first, of the length of a limb [-]."""
     beside: PositiveRatio = 0.02
     """From a hold to the next place where it is felt for, of the length of a limb [-]."""
     tries: Annotated[int, Field(strict=True, ge=1, le=50)] = 7
