@@ -10,10 +10,12 @@ from scipy.spatial.transform import Rotation
 from clamber.cli import main
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
+from clamber.execution.sequencer import Sequencer
 from clamber.families.spatial.control.believed_tree import believed_tree
-from clamber.families.spatial.control.laws import BODY_LAWS
+from clamber.families.spatial.control.laws import BODY_LAWS, USUAL
 from clamber.families.spatial.control.turn_kernels import write_axes
 from clamber.families.spatial.dynamics import DYNAMICS
+from clamber.families.spatial.execution.carrying import Carrying
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
@@ -39,7 +41,7 @@ from clamber.families.spatial.statics.judging import lift_between
 from clamber.families.spatial.trials.law_trials import first_steps as short_plan
 from clamber.families.spatial.trials.law_trials import try_law
 from clamber.families.spatial.trials.planning import RESERVES, careful
-from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
+from clamber.families.spatial.trials.run_plan import SpatialRun, body_of, run_plan
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan
@@ -173,6 +175,31 @@ def standing_body(
     body = LimbedBody(task.robot, task.world, plant, belief, Pace.of(task.robot), task.rules.lift)
     body.start(start)
     return body
+
+
+@pytest.mark.parametrize("moment", ["fading", "shutting"])
+def test_a_limb_that_comes_off_while_another_lets_go_or_closes_is_taken_again(moment: str) -> None:
+    """The other one bears what it can meanwhile: left with its faded load, or counted as in the air, the robot fell."""
+    task, plan = first_steps("wall-gripper", grabs=3)
+    plant = SpatialSim(task.robot, task.world, SpatialFlaws())
+    body = body_of(task, plant, plant.flaws, USUAL)
+    carrying = Carrying(body, task, Course.of(task, plan))
+    watch, off = body.told, list[int]()
+    assert watch is not None
+
+    def look() -> None:
+        watch()
+        moves = body.fading if moment == "fading" else int(np.argmax(body.sensed.shutting))
+        now = body.law.aims.cap[moves] < 0.2 * body.pace.weight if moment == "fading" else body.sensed.shutting[moves]
+        if not off and moves >= 0 and now:
+            off.append(next(limb for limb in range(4) if limb != moves))
+            plant.grip(off[0], False)
+
+    body.told = look
+    report = Sequencer(carrying).run()
+    assert off and report.done, report.reason
+    assert any("took it again" in motion.reason for motion in report.motions)
+    assert report.off < 0.1 * body.pace.size
 
 
 @pytest.mark.slow

@@ -343,8 +343,9 @@ class LimbedBody:
                 self._seek(limb, hold)
             elif self.attaches(limb) and self._open[limb] == OPEN:
                 self._open[limb] = 0
-                self.let_go(limb)
-                raise LostHoldError(limb, hold)
+                if not self.sensed.shutting[limb]:
+                    self.let_go(limb)
+                    raise LostHoldError(limb, hold)
             elif self._open[limb] * self.plant.period > LIFTED * self.pace.shift:
                 self._sought[limb], self._open[limb] = 0.0, 0
                 self.press(limb, self.world.normals[hold])

@@ -54,25 +54,31 @@ def rest(body: LimbedBody, seconds: float) -> None:
         body.tick()
 
 
-def share_loads(body: LimbedBody, loads: Floats, limb: int, *, fading: bool) -> None:
-    """Let the contacts' loads become others; the limb that is `fading` bears less and less, otherwise ever more."""
+def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bool = False) -> None:
+    """Let the contacts' loads become others; a limb that is `fading` bears less and less, another one ever more, if any."""
     aims = body.law.aims
     aims.velocity[:] = aims.acceleration[:] = 0.0
     before = body.loads.copy()
     most = float(np.abs(before if fading else loads).max()) + body.pace.weight
     count, k = max(1, round(body.pace.shift / body.plant.period)), 0
-    body.fading = limb if fading else -1
+    body.fading = limb if limb is not None and fading else -1
     try:
         while k < count:
-            k += fading or not body.seeks(limb)  # what has left its ground again is loaded once it is back
+            k += (
+                fading or limb is None or not body.seeks(limb)
+            )  # what has left its ground again is loaded once it is back
             share = quintic(k / count)[0]
             body.loads[:] = before + share * (loads - before)
-            aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
+            if limb is not None:
+                aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
             body.tick()
+    except LostHoldError:
+        fading = False  # where another came off, this one holds on, and is to bear what it can
+        raise
     finally:
         body.fading = -1
-    if not fading:
-        aims.cap[limb] = math.inf
+        if limb is not None and not fading:
+            aims.cap[limb] = math.inf
 
 
 def move_body(body: LimbedBody, motion: BodyMotion) -> None:
@@ -98,6 +104,9 @@ def move_body(body: LimbedBody, motion: BodyMotion) -> None:
 def regrab(body: LimbedBody, motion: Regrab) -> Landing:
     """A limb lets go of its hold, if it has one, swings, and takes another."""
     limb = motion.limb
+    if body.holds[limb] == motion.hold:  # it took it just as another limb came off
+        share_loads(body, motion.after.loads, None)
+        return Landing(True, float(np.linalg.norm(body.tips[limb] - body.belief.places[motion.hold])))
     if body.holds[limb] >= 0:
         share_loads(body, motion.loads, limb, fading=True)
         body.plant.grip(limb, False)
@@ -137,7 +146,12 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
     while tries < len(ways):
         end = place + ways[tries]
         tries += 1
-        landed = _land(body, limb, end, normals, posture)
+        try:
+            landed = _land(body, limb, end, normals, posture)
+        except LostHoldError:
+            if body.sensed.closed[limb] or body.sensed.shutting[limb]:  # its jaws are about it, or will be
+                body.hold_on(limb, hold)
+            raise
         deep = float((end - body.tips[limb]) @ normals[1])
         if landed and deep > pace.deep and not body.attaches(limb) and tries <= pace.tries:  # beside the hold, it seems
             deeper.append((deep, tries - 1))
@@ -145,7 +159,7 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
             body.hold_on(limb, hold)
             off = float(np.linalg.norm(body.tips[limb] - place))
             try:
-                share_loads(body, loads, limb, fading=False)
+                share_loads(body, loads, limb)
                 return Landing(True, off, tries)
             except LostHoldError as lost:
                 if lost.limb != limb:
