@@ -81,7 +81,7 @@ class EstimatedBase:
             for limb, hold in enumerate(now):
                 if hold != self._on[limb]:
                     self._change(limb, hold)
-        if self._told is None or self._told.held[0] is not sensed:
+        if self._told is None or self._told.held[0] is not sensed or self._told.held[-1] is not state:
             self._told = Handle(sensed, self.filter.believed, self._body.own, state)
         tell(self._told, self._late)
 
