@@ -218,6 +218,7 @@ OTHER_WAYS = {
     "sources.py": "reads the package itself",
     "viewing/report/pages.py": "reads the package itself",
     "cli/commands.py": "reads the package itself",
+    "viewing/browser/page.py": "reads the package itself",
     "benchmarks/starts.py": "asks the system for its processor",
     "jobs/store.py": "locks a file whose name was checked",
     "jobs/cluster.py": "opens the null device",

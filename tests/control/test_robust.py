@@ -10,8 +10,9 @@ from hypothesis.extra.numpy import arrays
 from random_chains import PERIOD, limb, planar_chain, quarter, random_chain, random_state, tick
 
 from clamber.control.chain import Chain
-from clamber.control.controller import ClamberError, Controller, still_aim
+from clamber.control.controller import Controller, still_aim
 from clamber.control.law_settings import LAWS, LawSettings
+from clamber.errors import ClamberError
 from clamber.types import Floats
 
 CHAINS = {
