@@ -191,7 +191,7 @@ class BaseFilter:
 
     def follow(self, tree: Tree, body: Followed, sensed: Any, passed: float) -> None:
         """Take in the readings of a tick, `passed` [s] after those before; arguments as those of the kernel."""
-        if self._handle is None or self._handle.held[0] is not sensed:
+        if self._handle is None or self._handle.held[0] is not sensed or self._handle.held[2] is not body:
             self._handle = Handle(sensed, tree, body, self.believed, self._packed)
         self.slips += follow(self._handle, passed)
 

@@ -64,9 +64,8 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
     body.fading = limb if limb is not None and fading else -1
     try:
         while k < count:
-            k += (
-                fading or limb is None or not body.seeks(limb)
-            )  # what has left its ground again is loaded once it is back
+            # what has left its ground again is loaded once it is back
+            k += fading or limb is None or not body.seeks(limb)
             share = quintic(k / count)[0]
             body.loads[:] = before + share * (loads - before)
             if limb is not None:
