@@ -24,7 +24,7 @@ SIMPLER = sorted(set(BODY_LAWS) - {"whole-body"})
 def law_of(name: str, tree: Tree, state: State, components: int = 3) -> BodyLaw:
     """A law of wide limits, in a state, whose every limb holds on and bears anything."""
     n = tree.joints
-    limits = Limits(np.full(n, 1e4), np.full(n, -9.0), np.full(n, 9.0), np.full(n, 1e3))
+    limits = Limits(np.full(n, 1e4), np.full(n, -9.0), np.full(n, 9.0), np.full(n, 1e3), np.zeros(n))
     law = body_law(name)(tree, limits, GAINS, most_rows=9)
     for kept, values in zip(law.state, state, strict=True):
         kept[:] = values

@@ -75,20 +75,19 @@ def find_effects(keys: Iterable[str], trials: Sequence[DrawnTrial]) -> list[Effe
         keys: Of the noise, in the order in which they are told.
         trials: Those that drew; trials that raised are left out.
     """
-    from scipy.stats import mannwhitneyu
-
     drew = [trial for trial in trials if trial.drawn]
     keys = [key for key in keys if any(trial.drawn.get(key, 0.0) != 0.0 for trial in drew)]
     failed = np.array([not trial.done for trial in drew], bool)
     bad, good = int(failed.sum()), int((~failed).sum())
     tests: dict[tuple[str, bool], tuple[float, float]] = {}
-    for key in keys:
+    for key in keys if bad and good else ():
+        from scipy.stats import mannwhitneyu  # takes a second to import, which Ctrl-C would wait for
+
         values = np.array([trial.drawn[key] for trial in drew])
         for by_size in (False, True) if np.any(values < 0.0) else (False,):
             ranked = np.abs(values) if by_size else values
-            if bad and good:
-                told = mannwhitneyu(ranked[failed], ranked[~failed])
-                tests[key, by_size] = float(told.statistic) / (bad * good), float(told.pvalue)
+            told = mannwhitneyu(ranked[failed], ranked[~failed])
+            tests[key, by_size] = float(told.statistic) / (bad * good), float(told.pvalue)
     corrected = _holm({test: p for test, (_, p) in tests.items()})
     can_tell = bool(tests) and 2.0 / math.comb(bad + good, bad) * len(tests) <= LEVEL
     effects = []

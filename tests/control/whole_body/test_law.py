@@ -17,7 +17,7 @@ from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 def law_of(tree: Tree, state: State, torque: float = 1e3, **gains: float) -> WholeBody:
     """A law of wide limits, in a state, whose every limb holds on and bears anything."""
     n = tree.joints
-    limits = Limits(np.full(n, torque), np.full(n, -9.0), np.full(n, 9.0), np.full(n, 1e3))
+    limits = Limits(np.full(n, torque), np.full(n, -9.0), np.full(n, 9.0), np.full(n, 1e3), np.zeros(n))
     law = WholeBody(tree, limits, Gains(arm=0.3, **gains), most_rows=9)
     for name in State._fields:
         getattr(law.state, name)[:] = getattr(state, name)

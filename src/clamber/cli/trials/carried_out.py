@@ -52,9 +52,9 @@ def try_out(works: Sequence[Work], asked: TrialsOptions, words: WorkerOptions) -
         tried.append(_tried(work, request, asked, replace(words, store=store)))
         if len(tried[-1].ended) < asked.n:
             break
-    told = [work.dynamics.trials_json(trials, asked.held_out) for work, trials in zip(works, tried, strict=False)]
     paired = tried[0].against(tried[1]) if len(tried) == 2 and tried[1].ended else None
     if words.as_json:
+        told = [work.dynamics.trials_json(trials, asked.held_out) for work, trials in zip(works, tried, strict=False)]
         print_json(told[0] if paired is None else Compared(first=plain(told[0]), second=plain(told[1]), paired=paired))
     else:
         for work, trials in zip(works, tried, strict=False):

@@ -36,7 +36,7 @@ class BodyLaw(ABC):
         """That contacts are meant to bear, each in its own frame, shape (limbs, 6)."""
         self.failures = 0
         """Ticks in which the law found no torques."""
-        self._packed, self._damping = gains.packed(), DAMPED * float(np.min(limits.torque))
+        self.packed, self._damping = gains.packed(), DAMPED * float(np.min(limits.torque))
         self._own = Handle(tree, self.state, self.dynamics)
 
     def look(self) -> None:
@@ -75,7 +75,7 @@ class WholeBody(BodyLaw):
             self.dynamics,
             self.aims,
             limits,
-            self._packed,
+            self.packed,
             self._programme,
             self.torques,
             self.wrenches,

@@ -43,6 +43,10 @@ class Aims(NamedTuple):
     """Of it [m/s^2], shape (limbs, 3)."""
     points: Floats
     """Direction that the end effector's z is to have, zero: any, shape (limbs, 3)."""
+    base_integral: Floats
+    """Added to the error of the base [m], then about the world's axes [rad]: what of it lasts, shape (6,)."""
+    tip_integral: Floats
+    """The same of swinging tips and where they are to point, shape (limbs, 6)."""
     posture: Floats
     """That joints lean to where nothing else is asked of them, shape (n,)."""
     frame: Floats
@@ -74,6 +78,8 @@ class Aims(NamedTuple):
             tip_velocity=np.zeros((limbs, 3)),
             tip_acceleration=np.zeros((limbs, 3)),
             points=np.zeros((limbs, 3)),
+            base_integral=np.zeros(6),
+            tip_integral=np.zeros((limbs, 6)),
             posture=np.zeros(tree.joints),
             frame=np.tile(np.eye(3), (limbs, 1, 1)),
             components=np.full(limbs, 3, np.int32),
@@ -96,6 +102,8 @@ class Limits(NamedTuple):
     """[rad] or [m]."""
     speed: Floats
     """[rad/s] or [m/s]."""
+    friction: Floats
+    """Coulomb friction of the gears [N m] or [N]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -128,6 +136,10 @@ class Gains:
     """At which a joint may come nearer to its limit, of what is left [1/s]."""
     speed_rate: float = 40.0
     """At which a joint's speed may change to what it may be [1/s]."""
+    integral: float = 0.2
+    """Rate at which errors that last are added up, of that at which they die away [-]."""
+    moving: float = 0.05
+    """Speed from which on a joint's gear rubs with its whole friction [rad/s], of slides per arm."""
 
     def packed(self) -> Floats:
         """As the kernel reads them, in the order of the fields."""
@@ -138,6 +150,7 @@ GAINS: Final = tuple(Gains.__dataclass_fields__)
 """Names in the order that they are packed in."""
 (
     ARM, BASE, SWING, HOLDING, RESTING, POSTURE, WRENCH, BASE_RATE, SWING_RATE, POSTURE_RATE, REST_RATE, LIMIT_RATE, SPEED_RATE,
+    INTEGRAL, MOVING,
 ) = range(len(GAINS))  # fmt: skip
 
 

@@ -11,6 +11,7 @@ from .programme import (
     HOLDING,
     HOLDS,
     LIMIT_RATE,
+    MOVING,
     POSTURE,
     POSTURE_RATE,
     REST_RATE,
@@ -27,6 +28,8 @@ EQUATION, GIVES_WAY = 5, 8
 """What the solver calls such bounds."""
 MET = 1e-6
 """A bound or row that is missed by no more is met, as it is for the solver [of its unit]."""
+BORNE = 0.7
+"""Part of a gear's friction that torques bear: less than the least that it may be, so that by this alone no joint moves [-]."""
 SMALL = 1e-9
 """Of the diagonal, so that the programme is strictly convex whatever is asked for [-]."""
 
@@ -44,18 +47,26 @@ def add_row(h, f, jacobian, row, wanted, weight):
             h[i, j] += left * jacobian[row, j]
 
 
+@inlined
+def turn_between(r, d):
+    """Half the sum of the cross products of two frames' axes: the sine of the angle from one to the other, about its axis."""
+    ex, ey, ez = 0.0, 0.0, 0.0
+    for c in range(3):
+        ex += 0.5 * (r[1, c] * d[2, c] - r[2, c] * d[1, c])
+        ey += 0.5 * (r[2, c] * d[0, c] - r[0, c] * d[2, c])
+        ez += 0.5 * (r[0, c] * d[1, c] - r[1, c] * d[0, c])
+    return ex, ey, ez
+
+
 @kernel
 def wanted_base(state, aims, rate, wanted):
     """Accelerations by which the base follows its aim, errors dying away without overshoot, into the first six of `wanted`."""
     for a in range(3):
         wanted[a] = aims.acceleration[a] + 2.0 * rate * (aims.velocity[a] - state.speed[a])
-        wanted[a] += rate * rate * (aims.position[a] - state.position[a])
-    r, d = state.rotation, aims.rotation
-    ex, ey, ez = 0.0, 0.0, 0.0
-    for c in range(3):  # half the sum of the cross products of the axes: the sine of the angle about its axis
-        ex += 0.5 * (r[1, c] * d[2, c] - r[2, c] * d[1, c])
-        ey += 0.5 * (r[2, c] * d[0, c] - r[0, c] * d[2, c])
-        ez += 0.5 * (r[0, c] * d[1, c] - r[1, c] * d[0, c])
+        wanted[a] += rate * rate * (aims.position[a] - state.position[a] + aims.base_integral[a])
+    r, lasts = state.rotation, aims.base_integral
+    ex, ey, ez = turn_between(r, aims.rotation)
+    ex, ey, ez = ex + lasts[3], ey + lasts[4], ez + lasts[5]
     for a in range(3):
         w = r[0, a] * aims.velocity[3] + r[1, a] * aims.velocity[4] + r[2, a] * aims.velocity[5]
         turn = r[0, a] * aims.acceleration[3] + r[1, a] * aims.acceleration[4] + r[2, a] * aims.acceleration[5]
@@ -83,7 +94,7 @@ def tip_tasks(dynamics, aims, gains, h, f):
             rate = gains[SWING_RATE]
             for a in range(3):
                 wanted = aims.tip_acceleration[limb, a] - bias[a]
-                wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a])
+                wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a] + aims.tip_integral[limb, a])
                 wanted += 2.0 * rate * (aims.tip_velocity[limb, a] - speed[a])
                 add_row(h, f, jacobian, a, wanted, gains[SWING])
             point_tip(dynamics, aims, gains, limb, h, f)
@@ -100,14 +111,14 @@ def tip_tasks(dynamics, aims, gains, h, f):
 @kernel
 def point_tip(dynamics, aims, gains, limb, h, f):
     """Turn a swinging end effector's z to where it is to point; turns about it are free."""
-    d = aims.points[limb]
+    d, lasts = aims.points[limb], aims.tip_integral[limb]
     if d[0] == 0.0 and d[1] == 0.0 and d[2] == 0.0:
         return
     rate, weight = gains[SWING_RATE], gains[SWING] * gains[ARM] ** 2
     turn, jacobian = dynamics.tip_turn[limb], dynamics.jacobian[limb]
     bias, speed = dynamics.tip_bias[limb], dynamics.tip_speed[limb]
     z0, z1, z2 = turn[0, 2], turn[1, 2], turn[2, 2]
-    ex, ey, ez = z1 * d[2] - z2 * d[1], z2 * d[0] - z0 * d[2], z0 * d[1] - z1 * d[0]
+    ex, ey, ez = z1 * d[2] - z2 * d[1] + lasts[3], z2 * d[0] - z0 * d[2] + lasts[4], z0 * d[1] - z1 * d[0] + lasts[5]
     n = jacobian.shape[1]
     for axis in range(2):  # the end effector's x and y
         u0, u1, u2 = turn[0, axis], turn[1, axis], turn[2, axis]
@@ -325,14 +336,26 @@ def write_and_solve(handle):
         read_torques(
             dynamics, aims, limits, programme, programme.a[: m * n].reshape(m, n), programme.x, torques, wrenches
         )
+        bear_friction(tree, state, limits, gains, programme.x, torques)
     return n, m, solved
 
 
 @kernel
 def read_solution(handle, m, x):
     """`read_torques` of what the handle of `write_and_solve` holds, from a programme of so many rows and its solution."""
-    _, _, dynamics, aims, limits, _, programme, torques, wrenches = opened(handle)
+    tree, state, dynamics, aims, limits, gains, programme, torques, wrenches = opened(handle)
     read_torques(dynamics, aims, limits, programme, programme.a[: m * x.size].reshape(m, x.size), x, torques, wrenches)
+    bear_friction(tree, state, limits, gains, x, torques)
+
+
+@kernel
+def bear_friction(tree, state, limits, gains, accelerations, torques):
+    """Add what gears take by their friction, as joints move and are about to, within the motors' limits; `accelerations` are asked for."""
+    for k in range(torques.size):
+        ahead = state.speed[FREE + k] + accelerations[FREE + k] / gains[SPEED_RATE]
+        slow = gains[MOVING] * (gains[ARM] if tree.sliding[k + 1] else 1.0)
+        total = torques[k] + BORNE * limits.friction[k] * min(1.0, max(-1.0, ahead / slow))
+        torques[k] = min(limits.torque[k], max(-limits.torque[k], total))
 
 
 @kernel

@@ -43,9 +43,13 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
 
 def joint_limits(robot: SpatialRobot) -> Limits:
     """Limits of all joints; torques are all that the motors have: the share that plans leave is for what they know nothing of."""
-    chains = robot.chains
+    chains, motors = robot.chains, Motors.of(robot)
     return Limits(
-        Motors.of(robot).torque, flat(robot, chains.lower), flat(robot, chains.upper), flat(robot, chains.speed)
+        torque=motors.torque,
+        lower=flat(robot, chains.lower),
+        upper=flat(robot, chains.upper),
+        speed=flat(robot, chains.speed),
+        friction=motors.friction,
     )
 
 

@@ -90,7 +90,7 @@ class DirectLaw(BodyLaw):
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
         super().__init__(tree, limits, gains, most_rows)
-        self._all = Handle(tree, self.state, self.dynamics, self.aims, limits, self._packed, Room.of(self))
+        self._all = Handle(tree, self.state, self.dynamics, self.aims, limits, self.packed, Room.of(self))
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
@@ -145,7 +145,7 @@ class JointImpedance(BodyLaw):
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
         super().__init__(tree, limits, gains, most_rows)
         self._reference = Reference.of(tree)
-        held = tree, self.state, self.dynamics, self.aims, limits, self._packed, Room.of(self)
+        held = tree, self.state, self.dynamics, self.aims, limits, self.packed, Room.of(self)
         self._all = Handle(*held, self._reference)
         self._begun = False
 

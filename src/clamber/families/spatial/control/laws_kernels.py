@@ -17,6 +17,7 @@ from .task_kernels import (
     tip_error,
     turn_error,
     turn_row,
+    turn_wanted,
 )
 
 GIVES = 0.05
@@ -59,7 +60,6 @@ def operational_space(handle):
             row[i] = 1.0 if i == a else 0.0
         solve_lower(lower, row)
         count = meet(room.basis, count, row, wanted[a], y)
-    rate = gains[SWING_RATE]
     for limb in range(aims.does.size):
         if aims.does[limb] != SWINGS:
             continue
@@ -72,9 +72,9 @@ def operational_space(handle):
         for axis in range(2 if points(aims, limb) else 0):
             turn_row(dynamics, limb, axis, row)
             solve_lower(lower, row)
-            value = rate * rate * turn_error(dynamics, aims, limb, axis)
-            value -= 2.0 * rate * about(dynamics, limb, axis, dynamics.tip_speed[limb])
-            value -= about(dynamics, limb, axis, dynamics.tip_bias[limb])
+            value = turn_wanted(dynamics, aims, gains, limb, axis) - about(
+                dynamics, limb, axis, dynamics.tip_bias[limb]
+            )
             count = meet(room.basis, count, row, value, y)
     for i in range(n):  # M of the accelerations is L y
         room.forces[i] = dynamics.bias[i]
@@ -106,7 +106,6 @@ def jacobian_transpose(handle):
     for k in range(tree.rotor.size):
         lean = rate * (rate * (aims.posture[k] - state.joints[k]) - 2.0 * state.speed[FREE + k])
         forces[FREE + k] = dynamics.weight[FREE + k] + mass[FREE + k, FREE + k] * lean
-    rate = gains[SWING_RATE]
     for limb in range(aims.does.size):
         if aims.does[limb] != SWINGS:
             continue
@@ -117,8 +116,7 @@ def jacobian_transpose(handle):
                     row[i] = dynamics.jacobian[limb, r, i]
             else:
                 turn_row(dynamics, limb, r - 3, row)
-                value = rate * rate * turn_error(dynamics, aims, limb, r - 3)
-                value -= 2.0 * rate * about(dynamics, limb, r - 3, dynamics.tip_speed[limb])
+                value = turn_wanted(dynamics, aims, gains, limb, r - 3)
                 most = mass[0, 0] * gains[ARM] ** 2
             light = 1.0 / most  # one over what the tip weighs along the row, as if joints were not coupled
             for i in range(FREE, row.size):

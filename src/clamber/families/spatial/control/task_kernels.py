@@ -3,7 +3,8 @@
 import math
 
 from ....compiled import inlined, kernel, opened
-from ....control.whole_body.programme import ARM, HOLDS, SWING_RATE
+from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, INTEGRAL, SWING_RATE, SWINGS
+from ....control.whole_body.programme_kernels import turn_between
 from ....control.whole_body.tree import FREE
 
 NEAR = 0.03
@@ -12,6 +13,10 @@ NOTHING = 1e-4
 """Less than this is nothing [-]."""
 RIDGE = 1e-10
 """Of the base's equations, so that contacts on one line can be shared among, too [-]."""
+SLACK = 0.002
+"""Errors that are not added up, per arm or [rad]: gears that stick would hunt about what is smaller."""
+MOST = 0.03
+"""What errors add up to at most, likewise: twice what gears made the base miss that rub most for its weight."""
 
 
 @inlined
@@ -56,7 +61,8 @@ def solve_lower(lower, x):
 def tip_error(dynamics, aims, gains, limb, a):
     """Acceleration by which a swinging tip follows its path along a world axis, its bias taken off [m/s^2]."""
     rate = gains[SWING_RATE]
-    wanted = aims.tip_acceleration[limb, a] + rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a])
+    wanted = aims.tip_acceleration[limb, a]
+    wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a] + aims.tip_integral[limb, a])
     return wanted + 2.0 * rate * (aims.tip_velocity[limb, a] - dynamics.tip_speed[limb, a])
 
 
@@ -75,6 +81,14 @@ def turn_error(dynamics, aims, limb, axis):
     ey = turn[2, 2] * d[0] - turn[0, 2] * d[2]
     ez = turn[0, 2] * d[1] - turn[1, 2] * d[0]
     return turn[0, axis] * ex + turn[1, axis] * ey + turn[2, axis] * ez
+
+
+@inlined
+def turn_wanted(dynamics, aims, gains, limb, axis):
+    """Angular acceleration about the end effector's x or y by which it turns to where it is to point [rad/s^2]."""
+    rate, error = gains[SWING_RATE], turn_error(dynamics, aims, limb, axis)
+    error += about(dynamics, limb, axis, aims.tip_integral[limb])
+    return rate * (rate * error - 2.0 * about(dynamics, limb, axis, dynamics.tip_speed[limb]))
 
 
 @inlined
@@ -176,12 +190,49 @@ def bear(dynamics, aims, limits, room):
         room.torques[k] = min(limits.torque[k], max(-limits.torque[k], room.forces[FREE + k]))
 
 
+@inlined
+def add_up(integral, at, error, share, arm):
+    """Add a share of an error vector, less its slack, to three components of an integral from `at` on."""
+    length = math.sqrt(error[0] ** 2 + error[1] ** 2 + error[2] ** 2)
+    share *= max(0.0, 1.0 - SLACK * arm / length) if length > 0.0 else 0.0
+    total = 0.0
+    for a in range(3):
+        integral[at + a] += share * error[a]
+        total += integral[at + a] ** 2
+    if total > (MOST * arm) ** 2:
+        for a in range(3):
+            integral[at + a] *= MOST * arm / math.sqrt(total)
+
+
+@kernel
+def integrate_errors(state, dynamics, aims, gains, period):
+    """Let errors of the base and of swinging tips add up over a period [s]: friction and weights that nobody knows make them last."""
+    share, arm = period * gains[INTEGRAL] * gains[BASE_RATE], gains[ARM]
+    p, q, integral = state.position, aims.position, aims.base_integral
+    add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
+    add_up(integral, 3, turn_between(state.rotation, aims.rotation), share, 1.0)
+    share = period * gains[INTEGRAL] * gains[SWING_RATE]
+    for limb in range(aims.does.size):
+        integral = aims.tip_integral[limb]
+        if aims.does[limb] != SWINGS:
+            for a in range(6):
+                integral[a] = 0.0
+            continue
+        p, q = dynamics.tip[limb], aims.tip[limb]
+        add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
+        if points(aims, limb):
+            d, turn = aims.points[limb], dynamics.tip_turn[limb]
+            x, y, z = turn[0, 2], turn[1, 2], turn[2, 2]
+            add_up(integral, 3, (y * d[2] - z * d[1], z * d[0] - x * d[2], x * d[1] - y * d[0]), share, 1.0)
+
+
 @kernel
 def bear_loads(handle, touch, fading, stand, tick):
-    """Count which tips feel something, and write what contacts are to bear in their own frames.
+    """Count which tips feel something, write what contacts are to bear in their own frames, and let errors add up.
 
     Args:
-        handle: Holds the readings, the law's aims, in place, the state, and the limbs (`limbed_body.Limbs`), in place.
+        handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and the law's dynamics
+            with its gains and the control period [s].
         touch: Force above which a tip feels something [N].
         fading: The limb whose load fades before it lets go; -1: none.
         stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
@@ -190,7 +241,7 @@ def bear_loads(handle, touch, fading, stand, tick):
     Returns:
         How far the base is from where it is to be [m].
     """
-    sensed, aims, state, limbs = opened(handle)
+    sensed, aims, state, limbs, (dynamics, gains, period) = opened(handle)
     felt, loads, pushing = limbs.felt, limbs.loads, limbs.pushing
     for limb in range(felt.size):
         x, y, z = sensed.wrenches[limb, 0], sensed.wrenches[limb, 1], sensed.wrenches[limb, 2]
@@ -207,6 +258,7 @@ def bear_loads(handle, touch, fading, stand, tick):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
+    integrate_errors(state, dynamics, aims, gains, period)
     off = 0.0
     for a in range(3):
         off += (aims.position[a] - state.position[a]) ** 2
@@ -216,7 +268,7 @@ def bear_loads(handle, touch, fading, stand, tick):
 @kernel
 def find_resting(handle):
     """The holds that tips stay on, of what the handle of `bear_loads` holds; an end effector that is open stays nowhere."""
-    sensed, aims, _, limbs = opened(handle)
+    sensed, aims, _, limbs, _ = opened(handle)
     for limb in range(aims.does.size):
         stays = aims.does[limb] == HOLDS and (limbs.pushing[limb] or sensed.closed[limb] != 0)
         limbs.resting[limb] = limbs.holds[limb] if stays else -1
@@ -230,7 +282,7 @@ def count_open(handle, fading):
         handle: As in `bear_loads`.
         fading: The limb whose load fades before it lets go; -1: none.
     """
-    sensed, _, _, limbs = opened(handle)
+    sensed, _, _, limbs, _ = opened(handle)
     pushing, ticks, some = limbs.pushing, limbs.open, False
     for limb in range(ticks.size):
         if limbs.holds[limb] < 0 or (pushing[limb] and limb == fading):

@@ -32,7 +32,7 @@ from .belief import Belief
 from .course import Standing
 from .plant import SpatialPlant, SpatialSensed
 from .sensor_watch import Guard, SensorWatch
-from .settings import Pace
+from .settings import Pace, usual_gains
 
 OPEN: Final = 3
 """Ticks after which a switch is believed that says that an end effector has come off."""
@@ -110,7 +110,7 @@ class LimbedBody:
         self.robot, self.world, self.plant, self.belief = robot, world, plant, belief
         self.pace, self.lift = pace, lift
         tree = believed_tree(robot, world.gravity)
-        self.law = body_law(law)(tree, joint_limits(robot), gains or Gains(arm=pace.size), MOST_ROWS)
+        self.law = body_law(law)(tree, joint_limits(robot), gains or usual_gains(robot, tree), MOST_ROWS)
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
         self.watch: Final = SensorWatch(robot, self.law, plant.period)
@@ -129,7 +129,7 @@ class LimbedBody:
         self.holds, self.loads = of.holds, of.loads
         """As `Limbs` has them."""
         self._felt, self._met, self._open, self._sought = of.felt, of.met, of.open, of.sought
-        self._handle = Handle(self.sensed, self.law.aims, self.law.state, of)
+        self._handle = self._held()
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
         self.off = 0.0
@@ -382,9 +382,15 @@ class LimbedBody:
         aims.position[:], aims.rotation[:] = state.position, state.rotation
         aims.velocity[:] = aims.acceleration[:] = 0.0
 
+    def _held(self) -> Handle:
+        """What kernels of `task_kernels` take."""
+        law = self.law
+        rest = law.dynamics, law.packed, self.plant.period
+        return Handle(self.sensed, law.aims, law.state, self._limbs, rest)
+
     def _believe(self) -> None:
         if self._handle.held[0] is not self.sensed:
-            self._handle = Handle(self.sensed, self.law.aims, self.law.state, self._limbs)
+            self._handle = self._held()
         find_resting(self._handle)
         self.belief.update(self.sensed, self._limbs.resting, self.law.state)
         self.law.look()

@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 
 from ....control.whole_body.law import BodyLaw
-from ....control.whole_body.programme import HOLDS, SWINGS, Aims, Gains
+from ....control.whole_body.programme import HOLDS, SWINGS, Aims
 from ....control.whole_body.tree import State
 from ....execution.sequencer import Sequencer
 from ....planning.problem.codes import MOVE, NEAREST, pack
@@ -20,7 +20,7 @@ from ..control.laws import USUAL, body_law
 from ..execution.carrying import Carrying
 from ..execution.course import Course
 from ..execution.run_trace import TracedBody
-from ..execution.settings import Pace
+from ..execution.settings import usual_gains
 from ..planning.task import SpatialTask
 from ..robot.contacts import MOST_ROWS
 from ..sim.spatial_flaws import SpatialFlaws
@@ -170,7 +170,7 @@ def try_law(task: SpatialTask, plan: Plan, law: str) -> tuple[LawTrial, list[Mom
 def law_at(task: SpatialTask, moment: Moment, law: str = USUAL) -> BodyLaw:
     """A law of a task's robot at a moment."""
     tree = believed_tree(task.robot, task.world.gravity)
-    made = body_law(law)(tree, joint_limits(task.robot), Gains(arm=Pace.of(task.robot).size), MOST_ROWS)
+    made = body_law(law)(tree, joint_limits(task.robot), usual_gains(task.robot, tree), MOST_ROWS)
     arrays: tuple[Any, ...] = (*made.state, *made.aims)
     for array, values in zip(arrays, (*moment.state, *moment.aims), strict=True):
         array[...] = values
