@@ -8,6 +8,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from clamber.cli import main
+from clamber.control.whole_body.programme import SWINGS
 from clamber.control.whole_body.tree import FREE
 from clamber.errors import SpecError
 from clamber.execution.sequencer import Sequencer
@@ -371,6 +372,58 @@ def test_a_foot_that_comes_down_beside_its_stone_finds_it() -> None:
         assert landing.taken and deep < body.pace.deep
         tries.append(landing.tries)
     assert max(tries) > 1, "another stone was everywhere beside it"
+
+
+def test_a_clamp_on_an_edge_that_is_turned_further_than_it_takes_is_leant_until_it_does() -> None:
+    """A clamp takes edges up to 5 deg off; true ones were up to 5 deg beside their normals, and trials of a truss ended at those."""
+    task, motion = first_regrab("truss-inchworm")
+    hold, takes = motion.hold, task.robot.contacts[motion.limb].tilt
+    inward, tries = task.world.normals[hold].copy(), []
+    for turn in np.arange(0.0, 2.0 * np.pi, 0.5 * np.pi):
+        across = np.linalg.svd(inward[None])[2][1:]
+        axis = np.cos(turn) * across[0] + np.sin(turn) * across[1]
+        true = Deviations.none(task.robot, task.world)
+        normals = true.normals.copy()
+        normals[hold] = Rotation.from_rotvec(1.1 * takes * axis).apply(inward)
+        body = standing_body(task, motion.before, deviations=replace(true, normals=normals))
+        landing = regrab(body, motion)
+        assert landing.taken, landing.reason
+        tries.append(landing.tries)
+    assert max(tries) > 1, "every clamp took its edge at once"
+
+
+def test_gears_that_stick_do_not_keep_a_body_from_its_aim() -> None:
+    """Friction of an inchworm's gears left its body 15 mm off for good: a law without an integral balances it at some distance."""
+    task, plan = first_steps("truss-inchworm", grabs=1)
+    body = standing_body(task, Course.of(task, plan).start)
+    body.law.aims.position[:] += 0.01 * body.pace.size
+    rest(body, 4.0)
+    assert body.off < 0.004 * body.pace.size
+    assert np.linalg.norm(body.law.aims.base_integral[:3]) < 0.03 * body.pace.size + 1e-9
+
+
+@pytest.mark.parametrize("name", ["truss-inchworm", "wall-gripper", "stones-quadruped"])
+def test_a_swinging_limb_is_damped_by_no_more_than_its_gears_take_without_a_rattle(name: str) -> None:
+    """The worst joint's rotor alone, under the damping meant for all that it moves, as late as a loop answers: it comes to rest."""
+    task, motion = first_regrab(name)
+    body = standing_body(task, motion.before)
+    body.law.aims.does[motion.limb] = SWINGS
+    body.law.aims.tip[motion.limb] = body.tips[motion.limb]
+    body.tick()
+    rate = min(body.law.gains.swing_rate, body.law.aims.tip_rate[motion.limb])
+    mine = slice(*body.joints_of(motion.limb))
+    heavier = (np.diag(body.law.dynamics.mass)[FREE:] / body.law.tree.rotor)[mine].max()
+
+    def left(damping: float) -> float:
+        step, late = 1e-5, 0.0075
+        speeds = [1.0] * round(late / step)
+        for _ in range(round(1.0 / step)):
+            speeds.append(speeds[-1] - step * heavier * damping * speeds[-round(late / step)])
+        return float(np.abs(speeds[-10000:]).max())
+
+    assert left(2.0 * rate) < 0.5
+    if rate < body.law.gains.swing_rate:
+        assert left(2.0 * 1.3 * rate) > 1.0, "it could be damped by more"
 
 
 def test_a_foot_that_takes_its_hold_anew_elsewhere_is_told_as_no_drift() -> None:

@@ -57,6 +57,28 @@ def test_torques_and_wrenches_bring_the_accelerations_that_are_asked_for(seed: i
     assert np.allclose(found[:6], wanted, atol=1e-3)
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_torques_bear_friction_as_joints_move_and_never_more_than_it(seed: int) -> None:
+    """The power of what is added is that of the friction it bears, and less: no joint moves by it alone."""
+    tree = random_tree(seed, limbs=4)
+    law = law_of(tree, random_state(tree, seed, speed=0.3), wrench=1e-9, posture=1e-9)
+    bare = law.tick().copy()
+    asked = accelerations(law)[6:]
+    law.limits.friction[:] = np.random.default_rng(seed).uniform(0.5, 2.0, tree.joints)
+    added = law.tick() - bare
+    assert np.abs(added).max() > 0.0
+    assert (np.abs(added) <= 0.8 * law.limits.friction + 1e-12).all()
+    ahead = law.state.speed[6:] + asked / law.gains.speed_rate
+    assert (added * ahead >= -1e-9).all()
+    law.state.speed[:] = 0.0
+    law.look()
+    law.aims.velocity[:] = law.aims.acceleration[:] = 0.0
+    law.limits.friction[:] = 0.0
+    still = law.tick().copy()
+    law.limits.friction[:] = 1.0
+    assert np.abs(law.tick() - still).max() < 1e-3, "at rest where it is to be nothing moves"
+
+
 def test_the_torques_are_those_of_mujocos_inverse_dynamics() -> None:
     tree = random_tree(5, limbs=3)
     law = law_of(tree, random_state(tree, 5, speed=0.3))

@@ -43,6 +43,8 @@ class Aims(NamedTuple):
     """Of it [m/s^2], shape (limbs, 3)."""
     points: Floats
     """Direction that the end effector's z is to have, zero: any, shape (limbs, 3)."""
+    tip_rate: Floats
+    """At which errors of a swinging tip may die away at most [1/s], shape (limbs,)."""
     base_integral: Floats
     """Added to the error of the base [m], then about the world's axes [rad]: what of it lasts, shape (6,)."""
     tip_integral: Floats
@@ -78,6 +80,7 @@ class Aims(NamedTuple):
             tip_velocity=np.zeros((limbs, 3)),
             tip_acceleration=np.zeros((limbs, 3)),
             points=np.zeros((limbs, 3)),
+            tip_rate=np.full(limbs, np.inf),
             base_integral=np.zeros(6),
             tip_integral=np.zeros((limbs, 6)),
             posture=np.zeros(tree.joints),

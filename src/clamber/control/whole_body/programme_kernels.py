@@ -91,7 +91,7 @@ def tip_tasks(dynamics, aims, gains, h, f):
         jacobian, bias, speed = dynamics.jacobian[limb], dynamics.tip_bias[limb], dynamics.tip_speed[limb]
         does = aims.does[limb]
         if does == SWINGS:
-            rate = gains[SWING_RATE]
+            rate = min(gains[SWING_RATE], aims.tip_rate[limb])
             for a in range(3):
                 wanted = aims.tip_acceleration[limb, a] - bias[a]
                 wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a] + aims.tip_integral[limb, a])
@@ -114,7 +114,7 @@ def point_tip(dynamics, aims, gains, limb, h, f):
     d, lasts = aims.points[limb], aims.tip_integral[limb]
     if d[0] == 0.0 and d[1] == 0.0 and d[2] == 0.0:
         return
-    rate, weight = gains[SWING_RATE], gains[SWING] * gains[ARM] ** 2
+    rate, weight = min(gains[SWING_RATE], aims.tip_rate[limb]), gains[SWING] * gains[ARM] ** 2
     turn, jacobian = dynamics.tip_turn[limb], dynamics.jacobian[limb]
     bias, speed = dynamics.tip_bias[limb], dynamics.tip_speed[limb]
     z0, z1, z2 = turn[0, 2], turn[1, 2], turn[2, 2]

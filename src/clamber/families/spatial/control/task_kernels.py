@@ -15,6 +15,10 @@ RIDGE = 1e-10
 """Of the base's equations, so that contacts on one line can be shared among, too [-]."""
 SLACK = 0.002
 """Errors that are not added up, per arm or [rad]: gears that stick would hunt about what is smaller."""
+REACTION = 0.0075
+"""From a reading to the torque that answers it [s]: 5 ms of delay, as motors on a bus have, and a control period."""
+STEADY = 0.4 * math.pi
+"""Of a joint's damping, how many times heavier what it moves is than its rotor, and `REACTION`; gears rattle from pi / 2 on [-]."""
 MOST = 0.03
 """What errors add up to at most, likewise: twice what gears made the base miss that rub most for its weight."""
 
@@ -60,7 +64,7 @@ def solve_lower(lower, x):
 @inlined
 def tip_error(dynamics, aims, gains, limb, a):
     """Acceleration by which a swinging tip follows its path along a world axis, its bias taken off [m/s^2]."""
-    rate = gains[SWING_RATE]
+    rate = min(gains[SWING_RATE], aims.tip_rate[limb])
     wanted = aims.tip_acceleration[limb, a]
     wanted += rate * rate * (aims.tip[limb, a] - dynamics.tip[limb, a] + aims.tip_integral[limb, a])
     return wanted + 2.0 * rate * (aims.tip_velocity[limb, a] - dynamics.tip_speed[limb, a])
@@ -86,7 +90,7 @@ def turn_error(dynamics, aims, limb, axis):
 @inlined
 def turn_wanted(dynamics, aims, gains, limb, axis):
     """Angular acceleration about the end effector's x or y by which it turns to where it is to point [rad/s^2]."""
-    rate, error = gains[SWING_RATE], turn_error(dynamics, aims, limb, axis)
+    rate, error = min(gains[SWING_RATE], aims.tip_rate[limb]), turn_error(dynamics, aims, limb, axis)
     error += about(dynamics, limb, axis, aims.tip_integral[limb])
     return rate * (rate * error - 2.0 * about(dynamics, limb, axis, dynamics.tip_speed[limb]))
 
@@ -204,20 +208,37 @@ def add_up(integral, at, error, share, arm):
             integral[at + a] *= MOST * arm / math.sqrt(total)
 
 
+@inlined
+def steady_rate(tree, dynamics, limb):
+    """Largest rate at which errors of a limb's tip may die away without a rattle of its gears [1/s].
+
+    In the play of its gear a motor turns its rotor alone, with torques that are meant for all that its joint moves, r times as heavy.
+    Of a joint with damping d the rotor then follows v' = -r d v(t - T), T late, which is steady up to r d T = pi / 2.
+    """
+    heavier, body = 1.0, tree.end[limb]
+    while body > 0:
+        i, rotor = FREE + body - 1, tree.rotor[body - 1]
+        if rotor > 0.0:
+            heavier = max(heavier, dynamics.mass[i, i] / rotor)
+        body = tree.parent[body]
+    return 0.5 * STEADY / (heavier * REACTION)  # errors that die away without overshoot are damped by twice the rate
+
+
 @kernel
-def integrate_errors(state, dynamics, aims, gains, period):
-    """Let errors of the base and of swinging tips add up over a period [s]: friction and weights that nobody knows make them last."""
+def steady_errors(tree, state, dynamics, aims, gains, period):
+    """Let errors of the base and of swinging tips add up over a period [s], for friction and weights that nobody knows make them last."""
     share, arm = period * gains[INTEGRAL] * gains[BASE_RATE], gains[ARM]
     p, q, integral = state.position, aims.position, aims.base_integral
     add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
     add_up(integral, 3, turn_between(state.rotation, aims.rotation), share, 1.0)
-    share = period * gains[INTEGRAL] * gains[SWING_RATE]
     for limb in range(aims.does.size):
         integral = aims.tip_integral[limb]
         if aims.does[limb] != SWINGS:
             for a in range(6):
                 integral[a] = 0.0
             continue
+        aims.tip_rate[limb] = steady_rate(tree, dynamics, limb)
+        share = period * gains[INTEGRAL] * min(gains[SWING_RATE], aims.tip_rate[limb])
         p, q = dynamics.tip[limb], aims.tip[limb]
         add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
         if points(aims, limb):
@@ -231,8 +252,8 @@ def bear_loads(handle, touch, fading, stand, tick):
     """Count which tips feel something, write what contacts are to bear in their own frames, and let errors add up.
 
     Args:
-        handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and the law's dynamics
-            with its gains and the control period [s].
+        handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and the law's
+            tree, dynamics and gains with the control period [s].
         touch: Force above which a tip feels something [N].
         fading: The limb whose load fades before it lets go; -1: none.
         stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
@@ -241,7 +262,7 @@ def bear_loads(handle, touch, fading, stand, tick):
     Returns:
         How far the base is from where it is to be [m].
     """
-    sensed, aims, state, limbs, (dynamics, gains, period) = opened(handle)
+    sensed, aims, state, limbs, (tree, dynamics, gains, period) = opened(handle)
     felt, loads, pushing = limbs.felt, limbs.loads, limbs.pushing
     for limb in range(felt.size):
         x, y, z = sensed.wrenches[limb, 0], sensed.wrenches[limb, 1], sensed.wrenches[limb, 2]
@@ -258,7 +279,7 @@ def bear_loads(handle, touch, fading, stand, tick):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
-    integrate_errors(state, dynamics, aims, gains, period)
+    steady_errors(tree, state, dynamics, aims, gains, period)
     off = 0.0
     for a in range(3):
         off += (aims.position[a] - state.position[a]) ** 2

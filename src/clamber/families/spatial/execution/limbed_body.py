@@ -110,7 +110,7 @@ class LimbedBody:
         self.robot, self.world, self.plant, self.belief = robot, world, plant, belief
         self.pace, self.lift = pace, lift
         tree = believed_tree(robot, world.gravity)
-        self.law = body_law(law)(tree, joint_limits(robot), gains or usual_gains(robot, tree), MOST_ROWS)
+        self.law = body_law(law)(tree, joint_limits(robot), gains or usual_gains(robot), MOST_ROWS)
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
         self.watch: Final = SensorWatch(robot, self.law, plant.period)
@@ -385,7 +385,7 @@ class LimbedBody:
     def _held(self) -> Handle:
         """What kernels of `task_kernels` take."""
         law = self.law
-        rest = law.dynamics, law.packed, self.plant.period
+        rest = law.tree, law.dynamics, law.packed, self.plant.period
         return Handle(self.sensed, law.aims, law.state, self._limbs, rest)
 
     def _believe(self) -> None:

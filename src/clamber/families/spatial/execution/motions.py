@@ -31,6 +31,8 @@ LEAST_SPEED: Final = 0.1
 """Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
 """Share of a swing's path after which a tip may touch [-]."""
+LEANED: Final = 0.7
+"""Lean of an end effector that finds nothing, of the tilt up to which it takes a hold: leans all around leave no gap [-]."""
 AROUND: Final = math.radians(137.5)
 """From one of them to the next, about the normal: the golden angle, which leaves no side out [rad]."""
 
@@ -141,17 +143,18 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
     """
     place, pace = body.belief.places[hold].copy(), body.pace
     reason = f"nothing to hold on to within {1e3 * pace.depth:.0f} mm"
-    ways, deeper, tries = list(_beside(body, normals[1])), list[tuple[float, int]](), 0
+    normal = normals[1]
+    ways, deeper, tries = list(_beside(body, limb, normal)), list[tuple[float, int]](), 0
     while tries < len(ways):
-        end = place + ways[tries]
+        end, leant = place + ways[tries][0], ways[tries][1]
         tries += 1
         try:
-            landed = _land(body, limb, end, normals, posture)
+            landed = _land(body, limb, end, np.stack((normals[0], leant)), posture)
         except LostHoldError:
             if body.sensed.closed[limb] or body.sensed.shutting[limb]:  # its jaws are about it, or will be
                 body.hold_on(limb, hold)
             raise
-        deep = float((end - body.tips[limb]) @ normals[1])
+        deep = float((end - body.tips[limb]) @ normal)
         if landed and deep > pace.deep and not body.attaches(limb) and tries <= pace.tries:  # beside the hold, it seems
             deeper.append((deep, tries - 1))
         elif landed:
@@ -166,7 +169,7 @@ def take(body: LimbedBody, limb: int, hold: int, normals: Floats, loads: Floats,
                 reason = "it came off when it was loaded"
         body.plant.grip(limb, False)
         body.let_go(limb)
-        normals = np.stack((normals[1], normals[1]))
+        normals = np.stack((leant, normal))
         if tries == pace.tries and deeper:  # all of it is deeper than believed: where it is least so
             ways.append(ways[min(deeper)[1]])
     return Landing(False, float(np.linalg.norm(body.tips[limb] - place)), tries, reason)
@@ -193,12 +196,20 @@ def scaled(body: LimbedBody, limb: int, path: TipPath, posture: Floats, seconds:
     return TimeScaling.within(seconds, (np.abs(moved) / most).max(axis=1) * (SAMPLES - 1) / SPEED)
 
 
-def _beside(body: LimbedBody, normal: Floats) -> Iterator[Floats]:
-    """Ways from a hold to where it is felt for, on a spiral across the normal [m], shape (3,) each."""
-    across = np.linalg.svd(normal[None])[2][1:]
+def _beside(body: LimbedBody, limb: int, normal: Floats) -> Iterator[tuple[Floats, Floats]]:
+    """Ways from a hold to where it is felt for, on a spiral across the normal [m], and normals that it is felt for along, shapes (3,).
+
+    An end effector that has to be aligned is leant besides, and moved by no more than half of what it takes holds from.
+    """
+    across, contact = np.linalg.svd(normal[None])[2][1:], body.robot.contacts[limb]
+    aligned = body.attaches(limb) and contact.aligned and math.isfinite(contact.tilt)
+    most = 0.5 * body.robot.ends[limb].bears().capture if aligned else math.inf
+    lean = math.tan(LEANED * contact.tilt) if aligned else 0.0
     for k in range(body.pace.tries):
-        out = body.pace.beside * math.sqrt(max(0, k - 1)) if k > 1 else 0.0  # the second try is where the first was
-        yield out * (math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1])
+        way = math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1]
+        beside = k > 1  # the second try is where the first was
+        leant = normal + beside * lean * way
+        yield beside * min(most, body.pace.beside * math.sqrt(max(0, k - 1))) * way, leant / np.linalg.norm(leant)
 
 
 def _swing(body: LimbedBody, limb: int, path: TipPath, scaling: TimeScaling, posture: Floats) -> None:

@@ -1,22 +1,13 @@
 """How a robot in space is moved: every number by the robot's own weight, size and strength."""
 
 import math
-from dataclasses import dataclass, replace
-from typing import Final, Self
-
-import numpy as np
+from dataclasses import dataclass
+from typing import Self
 
 from ....control.whole_body.programme import Gains
-from ....control.whole_body.tree import Tree
 from ....units import GRAVITY
-from ..control.believed_tree import flat, joint_inertias
 from ..robot.robot import SpatialRobot
 from ..statics.records import stretched
-
-REACTION: Final = 0.0075
-"""From a reading to the torque that answers it [s]: 5 ms of delay, as motors on a bus have, and a control period."""
-LEAST_RATE: Final = 10.0
-"""At which errors of a swinging tip die away whatever its gears [1/s]: more slowly, their friction and not the law would move it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -83,19 +74,7 @@ class Pace:
         )
 
 
-def usual_gains(robot: SpatialRobot, tree: Tree) -> Gains:
-    """Of the law of a robot's whole body, for its size and its gears.
-
-    In the play of its gear a motor turns its rotor alone, with torques that are meant for all that its joint moves. Damping d [1/s] of a
-    joint then acts on a mass that is r times as light: the rotor's speed follows v' = -r d v(t - T), T late, which is steady up to
-    r d T = pi / 2. Beyond, gears rattle from tooth to tooth, as simulated ones did from 1.3 on and did not at 1.1; a swing keeps to 1.
-
-    Args:
-        robot: The robot.
-        tree: As the law believes it to be.
-    """
-    pace, moved = Pace.of(robot), joint_inertias(tree, flat(robot, robot.chains.nominal))
-    heavier = float(np.max(np.divide(moved, tree.rotor, out=np.ones_like(moved), where=tree.rotor > 0.0)))
-    usual = Gains(arm=pace.size, moving=pace.approach / pace.size)
-    steady = 0.5 / (heavier * REACTION)
-    return replace(usual, swing_rate=min(usual.swing_rate, max(LEAST_RATE, steady)))
+def usual_gains(robot: SpatialRobot) -> Gains:
+    """Of the law of a robot's whole body."""
+    pace = Pace.of(robot)
+    return Gains(arm=pace.size, moving=pace.approach / pace.size)

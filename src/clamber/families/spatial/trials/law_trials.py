@@ -170,7 +170,7 @@ def try_law(task: SpatialTask, plan: Plan, law: str) -> tuple[LawTrial, list[Mom
 def law_at(task: SpatialTask, moment: Moment, law: str = USUAL) -> BodyLaw:
     """A law of a task's robot at a moment."""
     tree = believed_tree(task.robot, task.world.gravity)
-    made = body_law(law)(tree, joint_limits(task.robot), usual_gains(task.robot, tree), MOST_ROWS)
+    made = body_law(law)(tree, joint_limits(task.robot), usual_gains(task.robot), MOST_ROWS)
     arrays: tuple[Any, ...] = (*made.state, *made.aims)
     for array, values in zip(arrays, (*moment.state, *moment.aims), strict=True):
         array[...] = values

@@ -14,14 +14,15 @@ from ....trials.dynamics import Conditions, NoPlanError, RunEvents
 from ..execution.carrying import Replan
 from ..planning.task import SpatialTask
 
-RESERVES: Final = (0.3, 0.15)
-"""Of all strengths and torques that plans keep which are made to be carried out, the first that can be had [-].
+RESERVES: Final = {0.3: (1,), 0.2: (1, 4), 0.15: (1,)}
+"""Of all strengths and torques that plans keep which are made to be carried out, the first that can be had [-] -> how many times as wide
+as usual it is looked for, one after the other.
 
 Holds that bear a fifth less under a robot that weighs a tenth more take 27 %; holds alone take 20 %.
 """
 
 
-def careful(task: SpatialTask, reserve: float = RESERVES[0]) -> SpatialTask:
+def careful(task: SpatialTask, reserve: float = max(RESERVES)) -> SpatialTask:
     """The task with more in reserve, so that its plans can be carried out where holds, masses and motors are not as believed."""
     return replace(task, rules=replace(task.rules, need=max(task.rules.need, reserve)))
 
@@ -29,7 +30,7 @@ def careful(task: SpatialTask, reserve: float = RESERVES[0]) -> SpatialTask:
 def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
     """A plan with more in reserve than the task asks for; where there is none, one as the task asks for.
 
-    More in reserve is looked for by the planner that `auto` tries first alone, and once: that there is none is known only when all have
+    More in reserve is looked for by the planner that `auto` tries first alone, and briefly: that there is none is known only when all have
     searched as long as they may, which took minutes.
 
     Raises:
@@ -38,14 +39,15 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
     """
     problem = pose_problem(task).problem
     quick = choose(problem).planners[0] if asked.planner == "auto" else asked.planner
-    once = {"width": problem.beam.width} if accepts(quick, "width") else {}
-    for reserve in RESERVES:
+    for reserve, widths in RESERVES.items():
         if reserve <= task.rules.need:
             break
-        with suppress(SpecError):  # the start itself has less in reserve
-            result = _search(careful(task, reserve), quick, asked, events, seed, **once)
-            if result.has_plan:
-                return result.plan
+        for wider in widths if accepts(quick, "width") else (0,):
+            with suppress(SpecError):  # the start itself has less in reserve
+                options = {"width": wider * problem.beam.width} if wider else {}
+                result = _search(careful(task, reserve), quick, asked, events, seed, **options)
+                if result.has_plan:
+                    return result.plan
         events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
     result = _search(task, asked.planner, asked, events, seed)
     if result.has_plan:
