@@ -19,6 +19,8 @@ REACTION = 0.0075
 """From a reading to the torque that answers it [s]: 5 ms of delay, as motors on a bus have, and a control period."""
 STEADY = 0.4 * math.pi
 """Of a joint's damping, how many times heavier what it moves is than its rotor, and `REACTION`; gears rattle from pi / 2 on [-]."""
+LEAST_RATE = 7.0
+"""At which errors of a swinging tip die away whatever its gears [1/s]: more slowly, what is left of their friction would keep it."""
 MOST = 0.03
 """What errors add up to at most, likewise: twice what gears made the base miss that rub most for its weight."""
 
@@ -221,7 +223,9 @@ def steady_rate(tree, dynamics, limb):
         if rotor > 0.0:
             heavier = max(heavier, dynamics.mass[i, i] / rotor)
         body = tree.parent[body]
-    return 0.5 * STEADY / (heavier * REACTION)  # errors that die away without overshoot are damped by twice the rate
+    return max(
+        LEAST_RATE, 0.5 * STEADY / (heavier * REACTION)
+    )  # errors that die away without overshoot are damped by twice the rate
 
 
 @kernel

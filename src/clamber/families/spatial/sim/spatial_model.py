@@ -28,8 +28,11 @@ LINKS: Final = 1 << 16
 """Bit of what links touch, solids ..."""
 ON_SOLIDS: Final = 8
 """... each tip has one for its patch, by its limb's number, and one that is so much higher for solids."""
-TIP: Final = 0.002
-"""Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it."""
+TIP: Final = 0.0001
+"""Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it.
+
+A limb that leans rolls it: a ball of 2 mm took a quadruped 26 mm farther over 5 m than legs with points for feet would.
+"""
 THICK: Final = 0.01
 """Half the thickness of a hold's patch [m]."""
 THIN: Final = 1e-4
