@@ -11,6 +11,7 @@ from clamber.families.spatial.execution.plant import Pose
 from clamber.families.spatial.robot.contact_files import DATA
 from clamber.families.spatial.robot.robot import build_robot
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
+from clamber.families.spatial.sim.spatial_model import TIP
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
 from clamber.families.spatial.world.world import build_world
 from clamber.files import Document, read_toml
@@ -111,11 +112,11 @@ def test_an_end_effector_does_not_creep_and_gives_way_at_its_data_sheet(case: st
 
 @pytest.mark.parametrize("kind", ["foot", "area"])
 def test_a_foot_does_not_creep_and_slips_at_its_friction(kind: str, tmp_path: Path) -> None:
-    """At 80 % of what friction bears it moves by at most 1 um/s; it slides within 1 % of it. The tip lies 2 mm above what it touches."""
+    """At 80 % of what friction bears it moves by at most 1 um/s; it slides within 1 % of it. The tip lies `TIP` above what it touches."""
     contact, normal = shipped(kind), 100.0
     plant = rig(tmp_path, contact)
     press = np.array([0.0, 0.0, normal, 0.0, 0.0, 0.0])
-    most = contact["friction"]["value"] * normal * np.array([0.6, 0.8, 0.0, 0.8 * 0.002, -0.6 * 0.002, 0.0])
+    most = contact["friction"]["value"] * normal * np.array([0.6, 0.8, 0.0, 0.8 * TIP, -0.6 * TIP, 0.0])
     load(plant, SETTLE, 0.0 * press, press)
     load(plant, SETTLE, press, press + 0.8 * most)
     load(plant, SETTLE, press + 0.8 * most, press + 0.8 * most)

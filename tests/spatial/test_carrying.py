@@ -345,6 +345,7 @@ def test_feet_stay_where_they_stand_as_legs_lean() -> None:
     """The plant's feet are points, as those of the planner and of the estimate: as balls of 2 mm they rolled 26 mm over 5 m."""
     task, plan = first_steps("stones-quadruped", grabs=1)
     body = standing_body(task, Course.of(task, plan).start)
+    rest(body, 0.5)
     aims, before = body.law.aims, body.plant.truth()
     path = BodyPath.between(
         aims.position, aims.rotation, aims.position + np.array((0.05, 0.0, 0.0)), aims.rotation, 2.0
@@ -355,7 +356,7 @@ def test_feet_stay_where_they_stand_as_legs_lean() -> None:
     after = body.plant.truth()
     assert before is not None and after is not None
     assert np.linalg.norm(after.pose.position - before.pose.position) > 0.045
-    assert np.linalg.norm(after.tips - before.tips, axis=1).max() < 1e-4
+    assert np.linalg.norm((after.tips - before.tips)[:, :2], axis=1).max() < 1e-4
     assert np.linalg.norm(after.pose.position - body.law.state.position) < 2e-4
 
 
