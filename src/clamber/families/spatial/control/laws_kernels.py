@@ -72,9 +72,8 @@ def operational_space(handle):
         for axis in range(2 if points(aims, limb) else 0):
             turn_row(dynamics, limb, axis, row)
             solve_lower(lower, row)
-            value = turn_wanted(dynamics, aims, gains, limb, axis) - about(
-                dynamics, limb, axis, dynamics.tip_bias[limb]
-            )
+            value = turn_wanted(dynamics, aims, gains, limb, axis)
+            value -= about(dynamics, limb, axis, dynamics.tip_bias[limb])
             count = meet(room.basis, count, row, value, y)
     for i in range(n):  # M of the accelerations is L y
         room.forces[i] = dynamics.bias[i]

@@ -15,14 +15,14 @@ RIDGE = 1e-10
 """Of the base's equations, so that contacts on one line can be shared among, too [-]."""
 SLACK = 0.002
 """Errors that are not added up, per arm or [rad]: gears that stick would hunt about what is smaller."""
+MOST = 0.03
+"""What errors add up to at most, likewise: twice what gears made the base miss that rub most for its weight."""
 REACTION = 0.0075
 """From a reading to the torque that answers it [s]: 5 ms of delay, as motors on a bus have, and a control period."""
 STEADY = 0.4 * math.pi
 """Of a joint's damping, how many times heavier what it moves is than its rotor, and `REACTION`; gears rattle from pi / 2 on [-]."""
 LEAST_RATE = 7.0
 """At which errors of a swinging tip die away whatever its gears [1/s]: more slowly, what is left of their friction would keep it."""
-MOST = 0.03
-"""What errors add up to at most, likewise: twice what gears made the base miss that rub most for its weight."""
 
 
 @inlined
@@ -196,6 +196,15 @@ def bear(dynamics, aims, limits, room):
         room.torques[k] = min(limits.torque[k], max(-limits.torque[k], room.forces[FREE + k]))
 
 
+@kernel
+def largest_share(torques, limits):
+    """The largest part of its limit that any joint is driven with [-]."""
+    most = 0.0
+    for k in range(torques.size):
+        most = max(most, abs(torques[k]) / limits[k])
+    return most
+
+
 @inlined
 def add_up(integral, at, error, share, arm):
     """Add a share of an error vector, less its slack, to three components of an integral from `at` on."""
@@ -223,18 +232,27 @@ def steady_rate(tree, dynamics, limb):
         if rotor > 0.0:
             heavier = max(heavier, dynamics.mass[i, i] / rotor)
         body = tree.parent[body]
-    return max(
-        LEAST_RATE, 0.5 * STEADY / (heavier * REACTION)
-    )  # errors that die away without overshoot are damped by twice the rate
+    # errors that die away without overshoot are damped by twice the rate
+    return max(LEAST_RATE, 0.5 * STEADY / (heavier * REACTION))
 
 
 @kernel
-def steady_errors(tree, state, dynamics, aims, gains, period):
-    """Let errors of the base and of swinging tips add up over a period [s], for friction and weights that nobody knows make them last."""
+def steady_errors(state, aims, rest):
+    """Let errors of the base and of swinging tips add up, for friction and weights that nobody knows make them last.
+
+    Those of the base wait while a motor gives all it can: more could not be given, and would be too much once it can.
+
+    Args:
+        state: Of the robot.
+        aims: The law's, in place.
+        rest: Tree, dynamics, gains, the control period [s], torques of the tick before, and the motors' largest ones.
+    """
+    tree, dynamics, gains, period, torques, most = rest
     share, arm = period * gains[INTEGRAL] * gains[BASE_RATE], gains[ARM]
     p, q, integral = state.position, aims.position, aims.base_integral
-    add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
-    add_up(integral, 3, turn_between(state.rotation, aims.rotation), share, 1.0)
+    if largest_share(torques, most) < 1.0:
+        add_up(integral, 0, (q[0] - p[0], q[1] - p[1], q[2] - p[2]), share, arm)
+        add_up(integral, 3, turn_between(state.rotation, aims.rotation), share, 1.0)
     for limb in range(aims.does.size):
         integral = aims.tip_integral[limb]
         if aims.does[limb] != SWINGS:
@@ -256,8 +274,8 @@ def bear_loads(handle, touch, fading, stand, tick):
     """Count which tips feel something, write what contacts are to bear in their own frames, and let errors add up.
 
     Args:
-        handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and the law's
-            tree, dynamics and gains with the control period [s].
+        handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and what
+            `steady_errors` takes.
         touch: Force above which a tip feels something [N].
         fading: The limb whose load fades before it lets go; -1: none.
         stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
@@ -266,7 +284,7 @@ def bear_loads(handle, touch, fading, stand, tick):
     Returns:
         How far the base is from where it is to be [m].
     """
-    sensed, aims, state, limbs, (tree, dynamics, gains, period) = opened(handle)
+    sensed, aims, state, limbs, rest = opened(handle)
     felt, loads, pushing = limbs.felt, limbs.loads, limbs.pushing
     for limb in range(felt.size):
         x, y, z = sensed.wrenches[limb, 0], sensed.wrenches[limb, 1], sensed.wrenches[limb, 2]
@@ -283,7 +301,7 @@ def bear_loads(handle, touch, fading, stand, tick):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
-    steady_errors(tree, state, dynamics, aims, gains, period)
+    steady_errors(state, aims, rest)
     off = 0.0
     for a in range(3):
         off += (aims.position[a] - state.position[a]) ** 2
@@ -319,12 +337,3 @@ def count_open(handle, fading):
             ticks[limb] = 0 if on else ticks[limb] + 1
             some = some or ticks[limb] > 0
     return some
-
-
-@kernel
-def largest_share(torques, limits):
-    """The largest part of its limit that any joint is driven with [-]."""
-    most = 0.0
-    for k in range(torques.size):
-        most = max(most, abs(torques[k]) / limits[k])
-    return most

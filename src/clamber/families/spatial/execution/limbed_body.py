@@ -175,7 +175,7 @@ class LimbedBody:
         self._believe()
         aims = self.law.aims
         aims.rotation[:], aims.position[:] = at.pose.rotation, at.pose.position
-        aims.posture[:] = at.joints
+        aims.posture[:], aims.base_integral[:] = at.joints, 0.0
         self.loads[:] = at.loads
         for limb, hold in enumerate(at.holds.tolist()):
             if self.attaches(limb):
@@ -385,7 +385,7 @@ class LimbedBody:
     def _held(self) -> Handle:
         """What kernels of `task_kernels` take."""
         law = self.law
-        rest = law.tree, law.dynamics, law.packed, self.plant.period
+        rest = law.tree, law.dynamics, law.packed, self.plant.period, law.torques, law.limits.torque
         return Handle(self.sensed, law.aims, law.state, self._limbs, rest)
 
     def _believe(self) -> None:
