@@ -146,6 +146,8 @@ class ReachabilityState:
 
 CHILDREN: Final = 10_000
 """Children that a piece of a layer has room for, unless one stance has more."""
+LATE: Final = 0.5
+"""For so long what was seen is judged after Ctrl-C [s]."""
 PIECES: Final = 2
 """Pieces per thread between looks at the clock."""
 
@@ -203,7 +205,8 @@ def explore_breadth_first(
         tell: Called now and then with stances, poses and depth.
 
     Returns:
-        The exploration; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer.
+        The exploration; memory, time and Ctrl-C end it, and then it judges and tells what was seen so far, which takes a while longer;
+        after Ctrl-C that ends within `LATE`, and what was seen and is not judged then is on no map.
     """
     clock = Clock(seconds)
     threads = max(1, threads if threads is not None else (os.cpu_count() or 1))
@@ -237,11 +240,11 @@ def explore_breadth_first(
         ended = "interrupt"
     if pool is not None:
         pool.shutdown(cancel_futures=True)  # waits, so that nobody writes into the pieces any more
-    pool = _pool(threads)
-    for end, late in ((layer_end, depth), (reached.seen, depth + 1)):  # what was seen, but is not on the map yet
-        while (first := int(reached.state[WEIGHED])) < end:
+    pool, late = _pool(threads), Clock(LATE if block.interrupted else None)
+    for end, layer in ((layer_end, depth), (reached.seen, depth + 1)):  # what was seen, but is not on the map yet
+        while (first := int(reached.state[WEIGHED])) < end and not late.is_over:
             for piece in _share(pool, pieces, reached.weigh, range(first, end, size), end):
-                reached.note(piece, late)
+                reached.note(piece, layer)
     if pool is not None:
         pool.shutdown()
     count = int(reached.state[POSES])
