@@ -111,6 +111,7 @@ class LimbedBody:
         self.pace, self.lift = pace, lift
         tree = believed_tree(robot, world.gravity)
         self.law = body_law(law)(tree, joint_limits(robot), gains or usual_gains(robot), MOST_ROWS)
+        self._friction = self.law.limits.friction.copy()
         limbs = tree.limbs
         self.sensed = SpatialSensed.of(robot.chains)
         self.watch: Final = SensorWatch(robot, self.law, plant.period)
@@ -205,13 +206,20 @@ class LimbedBody:
         aims.components[limb], aims.n_rows[limb] = contact.components, len(rows)
         aims.rows[limb, : len(rows)], aims.limits[limb, : len(rows)] = rows, limits
         aims.does[limb], aims.cap[limb] = HOLDS, math.inf
+        self._bear_friction(limb, 0.0)
         self.holds[limb], self.places[limb] = hold, dynamics.tip[limb]
 
     def let_go(self, limb: int) -> None:
         """From now on a limb bears nothing."""
         self.relax(limb)
         self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
+        self._bear_friction(limb, 1.0)
         self.loads[limb], self._sought[limb] = 0.0, math.nan
+
+    def _bear_friction(self, limb: int, part: float) -> None:
+        """Have the law bear a part of what a limb's gears rub: none while it holds on, as that damps gears whose load passes through 0."""
+        mine = slice(*self.joints_of(limb))
+        self.law.limits.friction[mine] = part * self._friction[mine]
 
     def joints_along(self, limb: int, points: Floats, posture: Floats) -> Floats:
         """Joints of a limb whose tip goes through points while the base stays where it is to be.
