@@ -8,17 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ....compiled import Handle
-from ....control.whole_body.programme import (
-    FREE_LIMB,
-    HOLDS,
-    SWINGS,
-    Gains,
-)
-from ....control.whole_body.tree import (
-    FREE,
-    Dynamics,
-    State,
-)
+from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
+from ....control.whole_body.tree import FREE, Dynamics, State
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
