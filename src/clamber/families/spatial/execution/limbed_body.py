@@ -197,20 +197,20 @@ class LimbedBody:
         aims.components[limb], aims.n_rows[limb] = contact.components, len(rows)
         aims.rows[limb, : len(rows)], aims.limits[limb, : len(rows)] = rows, limits
         aims.does[limb], aims.cap[limb] = HOLDS, math.inf
-        self._bear_friction(limb, 0.0)
+        self._bear_friction(limb, False)
         self.holds[limb], self.places[limb] = hold, dynamics.tip[limb]
 
     def let_go(self, limb: int) -> None:
         """From now on a limb bears nothing."""
         self.relax(limb)
         self.law.aims.does[limb], self.holds[limb] = FREE_LIMB, -1
-        self._bear_friction(limb, 1.0)
+        self._bear_friction(limb, True)
         self.loads[limb], self._sought[limb] = 0.0, math.nan
 
-    def _bear_friction(self, limb: int, part: float) -> None:
-        """Have the law bear a part of what a limb's gears rub: none while it holds on, as that damps gears whose load passes through 0."""
+    def _bear_friction(self, limb: int, bears: bool) -> None:
+        """Have the law know what a limb's gears rub, or not while it holds on: that damps gears whose load passes through 0."""
         mine = slice(*self.joints_of(limb))
-        self.law.limits.friction[mine] = part * self._friction[mine]
+        self.law.limits.friction[mine] = self._friction[mine] if bears else 0.0
 
     def joints_along(self, limb: int, points: Floats, posture: Floats) -> Floats:
         """Joints of a limb whose tip goes through points while the base stays where it is to be.

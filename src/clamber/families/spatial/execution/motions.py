@@ -207,9 +207,9 @@ def _beside(body: LimbedBody, limb: int, normal: Floats) -> Iterator[tuple[Float
     lean = math.tan(LEANED * contact.tilt) if aligned else 0.0
     for k in range(body.pace.tries):
         way = math.cos(k * AROUND) * across[0] + math.sin(k * AROUND) * across[1]
-        beside = k > 1  # the second try is where the first was
-        leant = normal + beside * lean * way
-        yield beside * min(most, body.pace.beside * math.sqrt(max(0, k - 1))) * way, leant / np.linalg.norm(leant)
+        out = min(most, body.pace.beside * math.sqrt(max(0, k - 1)))  # the second try is where the first was
+        leant = normal + lean * way if k > 1 else normal
+        yield out * way, leant / np.linalg.norm(leant)
 
 
 def _swing(body: LimbedBody, limb: int, path: TipPath, scaling: TimeScaling, posture: Floats) -> None:
