@@ -6,6 +6,7 @@ from ....compiled import inlined, kernel, opened
 from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, INTEGRAL, SWING_RATE, SWINGS
 from ....control.whole_body.programme_kernels import turn_between
 from ....control.whole_body.tree import FREE
+from ....control.whole_body.tree_kernels import work_out
 
 NEAR = 0.03
 """A task of which less than this is left by those before it is met with damping, ever less the less is left [-]."""
@@ -245,9 +246,9 @@ def steady_errors(state, aims, rest):
     Args:
         state: Of the robot.
         aims: The law's, in place.
-        rest: Tree, dynamics, gains, the control period [s], torques of the tick before, and the motors' largest ones.
+        rest: Tree, dynamics, gains, the control period [s], torques of the tick before, and the motors' largest ones first.
     """
-    tree, dynamics, gains, period, torques, most = rest
+    tree, dynamics, gains, period, torques, most = rest[:6]
     share, arm = period * gains[INTEGRAL] * gains[BASE_RATE], gains[ARM]
     p, q, integral = state.position, aims.position, aims.base_integral
     if largest_share(torques, most) < 1.0:
@@ -271,11 +272,11 @@ def steady_errors(state, aims, rest):
 
 @kernel
 def bear_loads(handle, touch, fading, stand, tick):
-    """Count which tips feel something, write what contacts are to bear in their own frames, and let errors add up.
+    """Work out the dynamics, count which tips feel something, write what contacts are to bear in their own frames, let errors add up.
 
     Args:
         handle: Holds the readings, the law's aims, in place, the state, the limbs (`limbed_body.Limbs`), in place, and what
-            `steady_errors` takes.
+            `steady_errors` takes, with the dynamics in place; last of that what `count_open` keeps.
         touch: Force above which a tip feels something [N].
         fading: The limb whose load fades before it lets go; -1: none.
         stand: Least force with which others of these press: one that bears next to nothing lifts off as soon as anything gives way [N].
@@ -286,6 +287,7 @@ def bear_loads(handle, touch, fading, stand, tick):
     """
     sensed, aims, state, limbs, rest = opened(handle)
     felt, loads, pushing = limbs.felt, limbs.loads, limbs.pushing
+    work_out(rest[0], state, rest[1])
     for limb in range(felt.size):
         x, y, z = sensed.wrenches[limb, 0], sensed.wrenches[limb, 1], sensed.wrenches[limb, 2]
         felt[limb] = felt[limb] + 1 if math.sqrt(x * x + y * y + z * z) > touch else 0
@@ -318,14 +320,17 @@ def find_resting(handle):
 
 
 @kernel
-def count_open(handle, fading):
+def count_open(handle, fading, off):
     """Count the ticks for which each limb that is to hold on has not; whether any is to be looked at.
 
     Args:
-        handle: As in `bear_loads`.
+        handle: As in `bear_loads`. Its last array keeps the largest `off` and share of a motor's torque so far.
         fading: The limb whose load fades before it lets go; -1: none.
+        off: How far the base is from where it is to be [m].
     """
-    sensed, _, _, limbs, _ = opened(handle)
+    sensed, _, _, limbs, rest = opened(handle)
+    torques, most, peaks = rest[4:]
+    peaks[0], peaks[1] = max(peaks[0], off), max(peaks[1], largest_share(torques, most))
     pushing, ticks, some = limbs.pushing, limbs.open, False
     for limb in range(ticks.size):
         if limbs.holds[limb] < 0 or (pushing[limb] and limb == fading):

@@ -133,3 +133,31 @@ def unexplained(handle, mass, share):
         if abs(rest[k]) * limits[worst] > abs(rest[worst]) * limits[k]:
             worst = k
     return math.sqrt(off), worst
+
+
+@kernel
+def count_wandered(handle, holds, far):
+    """How many pairs of tips on their holds have moved by more than `far` [m] against each other since both had come there, as believed.
+
+    Args:
+        handle: As in `unexplained`; `came` and `lay` of its `sensor_watch.Room` are changed.
+        holds: Index of the hold that each limb is on, as believed; shape (limbs,).
+        far: The distance.
+    """
+    does, room, tips = opened(handle)[2], opened(handle)[4], opened(handle)[5][2].tip
+    count = 0
+    for i in range(does.size):
+        for k in range(i + 1, does.size):
+            came, lay = room.came[i, k], room.lay[i, k]
+            if does[i] != HOLDS or does[k] != HOLDS or holds[i] < 0 or holds[k] < 0:
+                came[0] = -1  # a limb that is off its hold meanwhile may come to another place of it
+                continue
+            square = 0.0
+            for a in range(3):
+                between = tips[i, a] - tips[k, a]
+                if came[0] != holds[i] or came[1] != holds[k]:
+                    lay[a] = between
+                square += (between - lay[a]) ** 2
+            came[0], came[1] = holds[i], holds[k]
+            count += math.sqrt(square) > far
+    return count

@@ -17,7 +17,6 @@ from ....execution.run_report import (
 from ....execution.sequencer import Attempt, Performer
 from ....planning.problem.plan import Plan
 from ....types import Floats
-from ..control.task_kernels import largest_share
 from ..planning.task import SpatialTask
 from .carrying_report import (
     CarryingReport,
@@ -73,7 +72,6 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         self.report = CarryingReport()
         self._at = 0
         self._off = math.nan
-        body.told = self._watch
 
     @property
     def time(self) -> float:
@@ -216,6 +214,7 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
     def end(self) -> None:
         """See `Performer`."""
         report, state = self.report, self.body.law.state
+        report.off, report.torque = self.body.peaks.tolist()
         report.failures, report.findings = self.body.law.failures, list(self.body.watch.monitor.findings)
         report.pose = pose_of(state.position, state.rotation)
         true = self.body.plant.truth()
@@ -226,12 +225,6 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         """Of the body, truly where that is told [m]."""
         true = self.body.plant.truth()
         return self.body.law.state.position.copy() if true is None else true.pose.position.copy()
-
-    def _watch(self) -> None:
-        """After every tick."""
-        report, law = self.report, self.body.law
-        report.off = max(report.off, self.body.off)
-        report.torque = max(report.torque, largest_share(law.torques, law.limits.torque))
 
 
 def pose_of(position: Floats, rotation: Floats) -> tuple[float, ...]:

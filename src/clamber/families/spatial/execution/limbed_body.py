@@ -1,7 +1,6 @@
 """A robot in space under a law of its whole body: a tick, and what its limbs hold on to as it believes."""
 
 import math
-from collections.abc import Callable
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -121,7 +120,10 @@ class LimbedBody:
         self.holds, self.loads = of.holds, of.loads
         """As `Limbs` has them."""
         self._felt, self._met, self._open, self._sought = of.felt, of.met, of.open, of.sought
-        self._handle = self._held()
+        self.peaks: Floats = np.zeros(2)
+        """Largest so far: `off` [m], and share of a motor's torque that was asked for [-]."""
+        self.handle = self._held()
+        """What kernels take of it."""
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
         self.off = 0.0
@@ -129,8 +131,6 @@ class LimbedBody:
         self.fading = -1
         """The limb whose load fades before it lets go; -1: none."""
         self.ticks = 0
-        self.told: Callable[[], None] | None = None
-        """Called after each tick."""
         self._pressed = np.zeros((limbs, 3))
         """Normals that limbs press against, shape (limbs, 3)."""
         self._presses = False
@@ -165,6 +165,7 @@ class LimbedBody:
         self.sensed = self.plant.sense()
         self.belief.begin(at.pose, self.sensed)
         self._believe()
+        self.law.look()
         aims = self.law.aims
         aims.rotation[:], aims.position[:] = at.pose.rotation, at.pose.position
         aims.posture[:], aims.base_integral[:] = at.joints, 0.0
@@ -295,16 +296,15 @@ class LimbedBody:
         if self._guard is not None:
             self._hold_posture(self._guard)
             return
-        self.off = bear_loads(self._handle, self.pace.touch, self.fading, self.pace.stand, self.ticks)
+        self.off = bear_loads(self.handle, self.pace.touch, self.fading, self.pace.stand, self.ticks)
         self._press(law.tick())
         self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
-        if self.told is not None:
-            self.told()
+        open_ones = count_open(self.handle, self.fading, self.off)
         if self.off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * self.off:.0f} mm from where it is to be")
-        if count_open(self._handle, self.fading):
+        if open_ones:
             self._feel_holds()
 
     def brace(self) -> None:
@@ -384,12 +384,11 @@ class LimbedBody:
     def _held(self) -> Handle:
         """What kernels of `task_kernels` take."""
         law = self.law
-        rest = law.tree, law.dynamics, law.packed, self.plant.period, law.torques, law.limits.torque
+        rest = law.tree, law.dynamics, law.packed, self.plant.period, law.torques, law.limits.torque, self.peaks
         return Handle(self.sensed, law.aims, law.state, self._limbs, rest)
 
     def _believe(self) -> None:
-        if self._handle.held[0] is not self.sensed:
-            self._handle = self._held()
-        find_resting(self._handle)
+        if self.handle.held[0] is not self.sensed:
+            self.handle = self._held()
+        find_resting(self.handle)
         self.belief.update(self.sensed, self._limbs.resting, self.law.state)
-        self.law.look()

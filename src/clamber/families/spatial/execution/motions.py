@@ -12,11 +12,12 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle
 from ....types import Floats
 from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
 from .limbed_body import LimbedBody, LostHoldError
-from .reference_kernels import quintic
+from .reference_kernels import aim_body, aim_swing, change_aims, direction_at, quintic
 from .references import PEAK_SPEED, BodyPath, TimeScaling, TipPath, rotation_vector, seconds_for, swing_seconds
 
 SPEED: Final = 0.7
@@ -56,12 +57,17 @@ def rest(body: LimbedBody, seconds: float) -> None:
         body.tick()
 
 
+def changing(body: LimbedBody, loads: Floats, posture: Floats) -> Handle:
+    """How a robot's loads and posture become others, for kernels."""
+    return Handle(body.loads.copy(), loads, body.law.aims.posture.copy(), posture)
+
+
 def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bool = False) -> None:
     """Let the contacts' loads become others; a limb that is `fading` bears less and less, another one ever more, if any."""
     aims = body.law.aims
     aims.velocity[:] = aims.acceleration[:] = 0.0
-    before = body.loads.copy()
-    most = float(np.abs(before if fading else loads).max()) + body.pace.weight
+    most = float(np.abs(body.loads if fading else loads).max()) + body.pace.weight
+    change = changing(body, loads, aims.posture.copy())
     count, k = max(1, round(body.pace.shift / body.plant.period)), 0
     body.fading = limb if limb is not None and fading else -1
     try:
@@ -69,7 +75,7 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
             # what has left its ground again is loaded once it is back
             k += fading or limb is None or not body.seeks(limb)
             share = quintic(k / count)[0]
-            body.loads[:] = before + share * (loads - before)
+            change_aims(body.handle, change, share)
             if limb is not None:
                 aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
             body.tick()
@@ -91,13 +97,9 @@ def move_body(body: LimbedBody, motion: BodyMotion) -> None:
     quick = float(np.max(np.abs(end.joints - aims.posture) / body.law.limits.speed, initial=0.0))
     seconds = max(seconds, PEAK_SPEED * quick / SPEED, 4.0 * body.plant.period)
     path = BodyPath.between(aims.position, aims.rotation, end.pose.position, end.pose.rotation, seconds)
-    before, posture = body.loads.copy(), aims.posture.copy()
+    change = changing(body, end.loads, end.joints)
     for k in range(1, math.ceil(seconds / body.plant.period) + 1):
-        time = k * body.plant.period
-        aims.position[:], aims.rotation[:], aims.velocity[:], aims.acceleration[:] = path.at(time)
-        share = quintic(time / seconds)[0]
-        body.loads[:] = before + share * (end.loads - before)
-        aims.posture[:] = posture + share * (end.joints - posture)
+        aim_body(body.handle, path.handle, change, k * body.plant.period)
         body.tick()
     rest(body, SETTLING)
 
@@ -215,12 +217,13 @@ def _beside(body: LimbedBody, limb: int, normal: Floats) -> Iterator[tuple[Float
 def _swing(body: LimbedBody, limb: int, path: TipPath, scaling: TimeScaling, posture: Floats) -> None:
     """Along the path, to its end or to where what comes down touches."""
     aims, period = body.law.aims, body.plant.period
-    before = aims.posture.copy()
     pointed = bool(body.robot.contacts[limb].aligned)
+    aims.points[limb] = 0.0
+    change = changing(body, body.loads.copy(), posture)
     for k in range(1, math.ceil(float(scaling.times[-1]) / period) + 1):
-        share, rate, quicker = scaling.at(k * period)
-        body.swing(limb, path.moving(share, rate, quicker), path.points(share) if pointed else None)
-        aims.posture[:] = before + quintic(share)[0] * (posture - before)
+        share = aim_swing(body.handle, limb, path.handle, scaling.handle, change, k * period)
+        if pointed:
+            direction_at(path.handle, share, aims.points[limb])
         body.tick()
         if share > LOW and presses(body, limb):
             return

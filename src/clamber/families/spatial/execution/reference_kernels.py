@@ -1,11 +1,12 @@
-"""Where a body and a swinging tip are to be at a moment, as kernels; for the paths of `execution.references`."""
+"""What is asked of a robot at a moment, and a sample of that, as kernels; for the paths of `execution.references`."""
 
 import math
 
 import numpy as np
 
 from ....compiled import kernel, opened
-from ..control.turn_kernels import turn_by
+from ....control.whole_body.programme import SWINGS
+from ..control.turn_kernels import turn_by, write_quaternion
 from ..statics.stance_kernels import OFF, RISE
 
 
@@ -41,15 +42,15 @@ def body_at(handle, time, position, rotation, velocity, acceleration):
 
 
 @kernel
-def tip_at(handle, u, rate, quicker, out):
-    """Place, velocity and acceleration at a share of a lifted path, shape (3, 3).
+def tip_at(handle, u, rate, quicker, place, velocity, acceleration):
+    """A tip at a share of a lifted path.
 
     Args:
         handle: Holds a `references.TipPath`'s start, end, normals and up.
         u: The share [-].
         rate: At which it grows [1/s].
         quicker: At which that grows [1/s^2].
-        out: Filled, row by row.
+        place, velocity, acceleration: Filled [m], [m/s], [m/s^2], shape (3,) each.
     """
     start, end, _, up = opened(handle)
     long = 1.0 - 2.0 * OFF
@@ -60,9 +61,9 @@ def tip_at(handle, u, rate, quicker, out):
         way = end[a] - start[a]
         first = speed / long * way + slope / RISE * up[a]
         second = change / long**2 * way + curve / RISE**2 * up[a]
-        out[0, a] = start[a] + share * way + height * up[a]
-        out[1, a] = rate * first
-        out[2, a] = rate * rate * second + quicker * first
+        place[a] = start[a] + share * way + height * up[a]
+        velocity[a] = rate * first
+        acceleration[a] = rate * rate * second + quicker * first
 
 
 @kernel
@@ -98,3 +99,75 @@ def share_at(handle, time):
     quicker = (rates[k + 1] - rates[k]) / (times[k + 1] - times[k])
     since = time - times[k]
     return k / pieces + since * (rates[k] + 0.5 * quicker * since), rates[k] + quicker * since, quicker
+
+
+@kernel
+def change_aims(handle, change, share):
+    """Have loads and posture become others, at a share of that.
+
+    Args:
+        handle: As in `task_kernels.bear_loads`; aims and limbs in place.
+        change: Holds the loads before and after, then the postures.
+        share: The share [-].
+    """
+    _, aims, _, limbs, _ = opened(handle)
+    before, after, leant, leans = opened(change)
+    for limb in range(before.shape[0]):
+        for a in range(6):
+            limbs.loads[limb, a] = before[limb, a] + share * (after[limb, a] - before[limb, a])
+    for k in range(leant.size):
+        aims.posture[k] = leant[k] + share * (leans[k] - leant[k])
+
+
+@kernel
+def aim_body(handle, path, change, time):
+    """A body on its way at a moment [s]: aims, and `change_aims` with it; handles as there and in `body_at`."""
+    aims = opened(handle)[1]
+    body_at(path, time, aims.position, aims.rotation, aims.velocity, aims.acceleration)
+    change_aims(handle, change, quintic(time / opened(path)[4])[0])
+
+
+@kernel
+def aim_swing(handle, limb, path, scaling, change, time):
+    """A limb that swings at a moment [s]: aims, with `change_aims`; handles as there, in `tip_at` and in `share_at`.
+
+    Returns:
+        The share of its path [-].
+    """
+    aims = opened(handle)[1]
+    share, rate, quicker = share_at(scaling, time)
+    tip_at(path, share, rate, quicker, aims.tip[limb], aims.tip_velocity[limb], aims.tip_acceleration[limb])
+    aims.does[limb] = SWINGS
+    change_aims(handle, change, quintic(share)[0])
+    return share
+
+
+@kernel
+def write_sample(handle, row, at):
+    """What is believed, asked for, commanded and felt, in the order of `run_trace.Named.titles`, into a row from `at` on; where it ends.
+
+    Args:
+        handle: As in `task_kernels.bear_loads`.
+        row: Filled.
+        at: The first place.
+    """
+    sensed, aims, state, limbs, rest = opened(handle)
+    torques = rest[4]
+    for of in (state.position, aims.position):
+        for a in range(3):
+            row[at + a] = of[a]
+        at += 7
+    write_quaternion(state.rotation, row[at - 11 : at - 7])
+    write_quaternion(aims.rotation, row[at - 4 : at])
+    n = torques.size
+    for k in range(n):
+        row[at + k], row[at + n + k] = sensed.joints[0, k], torques[k]
+    at += 2 * n
+    for limb in range(limbs.holds.size):
+        for a in range(6):
+            row[at] = sensed.wrenches[limb, a]
+            at += 1
+    for limb in range(limbs.holds.size):
+        row[at] = limbs.holds[limb] + 1.0
+        at += 1
+    return at

@@ -10,7 +10,7 @@ from ....compiled import Handle
 from ....types import Floats
 from ..control.turn_kernels import write_quaternion
 from ..statics.stance_kernels import OFF, RISE
-from .reference_kernels import body_at, direction_at, share_at, tip_at
+from .reference_kernels import body_at, share_at, tip_at
 
 PEAK_SPEED: Final = 1.875
 """Of a quintic from rest to rest, of its way per its time [-] ..."""
@@ -76,19 +76,9 @@ class TipPath:
 
     def at(self, u: float) -> tuple[Floats, Floats, Floats]:
         """Place, and its first and second derivative, at a share of the path [m], shape (3,) each."""
-        return self.moving(u, 1.0, 0.0)
-
-    def moving(self, u: float, rate: float, quicker: float) -> tuple[Floats, Floats, Floats]:
-        """Place, velocity and acceleration where the share grows by a rate [1/s], and that by another [1/s^2]."""
         made = np.empty((3, 3))
-        tip_at(self.handle, u, rate, quicker, made)
+        tip_at(self.handle, u, 1.0, 0.0, *made)
         return made[0], made[1], made[2]
-
-    def points(self, u: float) -> Floats:
-        """Direction of an end effector that turns from the one inward normal to the other, shape (3,)."""
-        made = np.empty(3)
-        direction_at(self.handle, u, made)
-        return made
 
 
 @dataclass(frozen=True, slots=True, eq=False)

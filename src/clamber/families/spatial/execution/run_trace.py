@@ -1,7 +1,6 @@
 """What happens while a robot in space carries a plan out, sample by sample, and the log that it becomes."""
 
 import json
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final, Self
 
@@ -13,6 +12,7 @@ from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
 from ..robot.chains import Chains
 from .limbed_body import LimbedBody
+from .reference_kernels import write_sample
 from .references import quaternion_of
 
 TOPIC: Final = "limbs"
@@ -167,23 +167,15 @@ class TracedBody(LimbedBody):
 
     def sample(self) -> Floats:
         """Of now, in the order of `titles`."""
-        law, state, aims = self.law, self.law.state, self.law.aims
-        parts: list[Floats | Sequence[float]] = [
-            (self.time, self.action),
-            state.position,
-            quaternion_of(state.rotation),
-            aims.position,
-            quaternion_of(aims.rotation),
-            self.sensed.joints[0],
-            law.torques,
-            self.sensed.wrenches.ravel(),
-            (self.holds + 1.0).tolist(),
-        ]
         true = self.plant.truth()
+        n, limbs = len(self.law.torques), len(self.holds)
+        row = np.empty(16 + 2 * n + 7 * limbs + (0 if true is None else 7 + n + 7 * limbs))
+        row[0], row[1] = self.time, self.action
+        at = write_sample(self.handle, row, 2)
         if true is not None:
-            parts += [true.pose.position, quaternion_of(true.pose.rotation), true.joints[0], true.wrenches.ravel()]
-            parts += [(true.attached + 1.0).tolist()]
-        return np.concatenate([np.asarray(part, np.float64) for part in parts])
+            parts = true.pose.position, quaternion_of(true.pose.rotation), true.joints[0], true.wrenches.ravel()
+            np.concatenate((*parts, true.attached + 1.0), out=row[at:])
+        return row
 
     def trace(self, report: Json | None = None) -> RunTrace:
         """All samples so far."""

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from itertools import combinations
 from typing import (
     Final,
     NamedTuple,
@@ -14,7 +13,6 @@ import numpy.typing as npt
 
 from ....compiled import Handle
 from ....control.whole_body.law import BodyLaw
-from ....control.whole_body.programme import HOLDS
 from ....control.whole_body.tree import FREE
 from ....execution.posture_guard import JointHold
 from ....execution.reading_monitor import Channel, ReadingMonitor
@@ -22,6 +20,7 @@ from ....execution.run_report import FaultError
 from ....types import Floats, Ints
 from ..control.watch_kernels import (
     count_repeats,
+    count_wandered,
     gather,
     give_back,
     unexplained,
@@ -86,6 +85,10 @@ class Room(NamedTuple):
     """Switches of the newest reading, shape (limbs,)."""
     shutting: Ints
     """Likewise."""
+    came: Ints
+    """Holds of each pair of limbs that are on theirs; -1: they are not, shape (limbs, limbs, 2)."""
+    lay: Floats
+    """How its tips lay to each other when both had come there, as believed [m], shape (limbs, limbs, 3)."""
 
 
 class Rests(NamedTuple):
@@ -137,6 +140,8 @@ class SensorWatch:
             np.zeros(sensors, np.int64),
             np.zeros(limbs, np.int32),
             np.zeros(limbs, np.int32),
+            np.full((limbs, limbs, 2), -1),
+            np.zeros((limbs, limbs, 3)),
         )
         self._owner = np.repeat(np.arange(limbs), robot.chains.n_joints)
         """Limb of each joint, shape (n,)."""
@@ -148,8 +153,6 @@ class SensorWatch:
         self._repeats, self._wandering = math.ceil(REPEATS / looked), math.ceil(WANDERING / looked / TIPS_EVERY)
         self._rests = Rests(np.zeros(self._n), np.zeros(3), np.zeros(3))
         self._weak = self._off = self._wandered = 0
-        self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
-        """Pair of limbs -> its holds, and how its tips lay to each other when both had come there, as believed [m]."""
         self._ticks, self._newest, self._debt = 0, -1, 0
         self._clock = -1
         self._handle: Handle | None = None
@@ -209,7 +212,7 @@ class SensorWatch:
         if self.monitor.clear > self._patience * self._every:
             self._look_at_torques(off / self._pace.weight, worst)
         if self._ticks % (TIPS_EVERY * self._every) == 0:
-            self._look_at_tips(holds)
+            self._look_at_tips(handle, holds)
 
     def _look_at_torques(self, off: float, c: int) -> None:
         """Whether motors, force sensors and accelerometer agree, by how many weights forces are off, and a joint's torque."""
@@ -235,23 +238,16 @@ class SensorWatch:
         limb = int(rests.argmax())
         return 2 * self._n + 6 + 6 * limb + int(np.abs(off @ dynamics.tip_turn[limb]).argmax())
 
-    def _look_at_tips(self, holds: Ints) -> None:
+    def _look_at_tips(self, handle: Handle, holds: Ints) -> None:
         """Whether tips have moved against each other that are on their holds."""
-        aims, tips = self._law.aims, self._law.dynamics.tip
-        wandered: list[Wandered] = []
-        came, self._came = self._came, {}  # a limb that was off its hold meanwhile may have come to another place of it
-        for pair in combinations(np.flatnonzero((aims.does == HOLDS) & (holds >= 0)).tolist(), 2):
-            i, k = pair
-            between, on = tips[i] - tips[k], (int(holds[i]), int(holds[k]))
-            known = came.get(pair)
-            if known is None or known[0] != on:
-                known = on, between
-            elif np.linalg.norm(between - known[1]) > WANDERED * self._pace.size:
-                wandered.append((pair, known[1], between))
-            self._came[pair] = known
-        self._wandered = self._wandered + 1 if wandered else 0
-        if self._wandered > self._wandering:
-            self._tell_wandered(wandered)
+        far = WANDERED * self._pace.size
+        self._wandered = self._wandered + 1 if count_wandered(handle, holds, far) else 0
+        if self._wandered <= self._wandering:
+            return
+        tips, room = self._law.dynamics.tip, self._room
+        pairs = [(int(i), int(k)) for i, k in np.argwhere(room.came[..., 0] >= 0)]
+        moved = [((i, k), room.lay[i, k], tips[i] - tips[k]) for i, k in pairs]
+        self._tell_wandered([one for one in moved if np.linalg.norm(one[2] - one[1]) > far])
 
     def _tell_wandered(self, wandered: Sequence[Wandered]) -> None:
         """Which sensor explains best that tips have moved: the gyro if they have kept their distances, or an encoder."""

@@ -110,11 +110,20 @@ def dot(a, b):
 
 @kernel
 def feel_ends(handle):
-    """What acts on every tip, and what gives way, of what the handle of an `ends.Seen` holds; whether anything does."""
+    """What acts on every tip, and what gives way, of what the handle of an `ends.Seen` holds.
+
+    Returns:
+        Whether anything does; -1: the simulation has lost its numbers.
+    """
     seen = opened(handle)[0]
+    total = 0.0
+    for k in range(seen.numbers.size):
+        total += seen.numbers[k]
+    if not math.isfinite(total):
+        return -1
     ends, axes, sites, readings, given = seen.ends, seen.axes, seen.sites, seen.readings, seen.given
     shutting, wrenches, local = seen.shutting, seen.wrenches, seen.local
-    some = False
+    some = 0
     for limb in range(ends.shape[0]):
         end = ends[limb]
         turn = axes[sites[limb]]
@@ -149,7 +158,7 @@ def feel_ends(handle):
             dot(moment, second),
         )  # fmt: skip
         end.over = 0 if given[limb] == HOLDS or shutting[limb] > 0 else end.over + 1
-        some = some or end.over > 0
+        some |= end.over > 0
     return some
 
 
@@ -189,15 +198,6 @@ def nearest_holds(handle):
         if (end.capture > 0.0 and best < end.near) or nearest != end.under:
             some |= 1 << limb
     return some
-
-
-@kernel
-def all_finite(handle):
-    """Whether all numbers are of the one array that a handle holds."""
-    total, numbers = 0.0, opened(handle)[0]
-    for k in range(numbers.size):
-        total += numbers[k]
-    return math.isfinite(total)
 
 
 @kernel

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ....compiled import Handle
 from ....control.quintic import quintic_share
-from ....execution.plant import HoldBreak
+from ....execution.plant import HoldBreak, PlantStoppedError
 from ....types import Floats, Ints
 from ..robot.contacts import SHUTTING
 from ..robot.robot import SpatialRobot
@@ -58,6 +58,8 @@ class Seen(NamedTuple):
     """Out of their surfaces, shape (holds, 3)."""
     radii: Floats
     """Of their patches [m], shape (holds,); negative: the hold is no more."""
+    numbers: Floats
+    """MuJoCo's `qpos`, of which none is finite any more once its numbers are lost."""
 
 
 class Ends:
@@ -152,6 +154,7 @@ class Ends:
             places=self._places,
             normals=self._normals,
             radii=self._radii,
+            numbers=data.qpos,
         )
         self._given, self._handle = seen.given, Handle(seen)
 
@@ -224,8 +227,15 @@ class Ends:
             self._attach(limb, hold)
 
     def feel(self, time: float) -> None:
-        """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s]."""
-        if feel_ends(self._handle):
+        """See what acts on tips, and let come off what bears too much: after the physics of a control period that ends at `time` [s].
+
+        Raises:
+            PlantStoppedError: If the simulation has lost its numbers.
+        """
+        felt = feel_ends(self._handle)
+        if felt < 0:
+            raise PlantStoppedError("the simulation has lost its numbers")
+        if felt:
             for limb in np.flatnonzero(self._ends["over"] >= self._limit).tolist():
                 self._come_off(limb, time)
 

@@ -6,7 +6,6 @@ from typing import Any, Final
 import numpy as np
 
 from ....compiled import Handle
-from ....execution.plant import PlantStoppedError
 from ....sim.electronics import take_torques
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
@@ -18,7 +17,7 @@ from ..execution.plant import (
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.world import World
-from .end_kernels import all_finite, drive_motors, true_motion
+from .end_kernels import drive_motors, true_motion
 from .ends import Ends
 from .sensing import Sensing
 from .spatial_flaws import Deviations, SpatialFlaws
@@ -80,7 +79,6 @@ class SpatialSim:
         play_at, play_speed_at = np.full(n, -1), np.full(n, -1)
         play_at[played], play_speed_at[played] = self._play_at, [play.dofadr[0] for play in plays]
         self._motion = Handle(data.qpos, data.qvel, self._at, self._speed_at, play_at, play_speed_at)
-        self._numbers = Handle(data.qpos)
         with np.errstate(divide="ignore"):
             agility = (
                 2.0 * motors.torque / motors.rotor
@@ -199,8 +197,6 @@ class SpatialSim:
             for _ in range(self.flaws.steps):
                 self._drive(0.0)
                 self._step(self.model, self._data, 1)
-        if not all_finite(self._numbers):
-            raise PlantStoppedError("the simulation has lost its numbers")
         self.tick += 1
         self.ends.feel(self.time)
 
