@@ -51,10 +51,13 @@ def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path, limbs
     code, out, _ = run("check", "plan.json", "--json")
     verdict = json.loads(out)
     assert code == 0 and verdict["kind"] == "plan" and verdict["reached"]
-    # no robot so weak is carried out today: refused by name and number, and nothing moves
+    # too weak for the control of climbers; four limbs and more climb in space, three are refused, and nothing moves
     assert not verdict["to_run"]["ok"] and "gives 5 N m" in verdict["to_run"]["objection"]
     code, out, err = run("run", "climb.toml", "-q")
-    assert (code, out) == (1, "") and "gives 5 N m" in err and "nothing has moved" in err
+    if limbs == "3":
+        assert (code, out) == (1, "") and "gives 5 N m" in err and "nothing has moved" in err
+    else:
+        assert code == 0 and "carried out: 'climb'" in out, err
 
 
 @pytest.mark.parametrize("limbs", first_fast([2, 3, 4, 6, 8], 3))

@@ -74,20 +74,37 @@ def test_it_plans_as_run_does_with_no_options_of_other_searches(clamber: Run) ->
 WEAK = "asks up to 8 N m of every joint, and joint 1 of 'gecko4' gives 5 N m"
 
 
-def test_a_robot_too_weak_for_todays_control_is_refused_before_anything_is_searched_for(
-    clamber: Run, tmp_path: Path
-) -> None:
+def test_a_robot_too_weak_for_climbers_control_is_carried_out_in_space(clamber: Run, tmp_path: Path) -> None:
+    plan, low = str(tmp_path / "p.json"), ("--set", "goal.y_min=45 cm")
+    code, out, err = clamber("run", "gecko-climb", *low)
+    assert code == 0 and "carried out: 'gecko-climb'" in out
+    assert WEAK in err and "carried out as a robot in space" in err
+    assert clamber("plan", "gecko-climb", *low, "--to-run", "-q", "-o", plan)[0] == 0
+    assert clamber("run", plan, "-q")[0] == 0
+    code, out, err = clamber("run", "gecko-climb", "--force", "--set", "plant.law=none", "-q")
+    assert code == 2 and "motor_limits" in err  # of the climber's own plant
+
+
+def test_a_plan_of_a_robot_too_weak_for_climbers_control_is_refused(clamber: Run, tmp_path: Path) -> None:
     plan = str(tmp_path / "p.json")
-    for words in (("run", "gecko-climb", "-q"), ("plan", "gecko-climb", "--to-run", "-q")):
-        code, out, err = clamber(*words)
-        assert (code, out) == (1, "")
-        assert WEAK in err and "nothing has moved" in err
     code, out, _ = clamber("plan", "gecko-climb", "--planner", "greedy", "-q", "-o", plan)
     assert code == 0 and WEAK in " ".join(out.split()) and "--to-run" not in out
     for command in ("run", "trials"):
         code, out, err = clamber(command, plan, "-q")
         assert (code, out) == (2, "")
         assert WEAK in err and "--force" in err
+
+
+def test_three_weak_limbs_are_refused_before_anything_is_searched_for(clamber: Run, tmp_path: Path) -> None:
+    """Two holds would not keep the robot to its wall while the third limb swings."""
+    robot, wall, task = (str(tmp_path / name) for name in ("r.toml", "w.toml", "t.toml"))
+    assert clamber("new", "robot", "--limbs", "3", "-o", robot)[0] == 0
+    assert clamber("new", "board", "-o", wall)[0] == 0
+    assert clamber("new", "task", "--robot", robot, "--board", wall, "-o", task)[0] == 0
+    for words in (("run", task, "-q"), ("plan", task, "--to-run", "-q")):
+        code, out, err = clamber(*words)
+        assert (code, out) == (1, "")
+        assert "gives 5 N m" in err and "nothing has moved" in err
 
 
 def test_stronger_motors_are_not_refused(clamber: Run, tmp_path: Path) -> None:

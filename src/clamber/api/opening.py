@@ -9,7 +9,7 @@ from ..family import family_of
 from ..inspection.open_file import file_kinds, kind_of
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
-from ..trials.work import Work, open_work
+from ..trials.work import Work, fit_family, open_work
 from .options import short
 
 
@@ -32,13 +32,14 @@ def load_world(name_or_path: str) -> Any:
     return worlds[kind].load(name_or_path)
 
 
-def work_of(what: Any, task: str | None = None, plant: Sequence[str] = ()) -> Work:
-    """What is carried out: a task, a plan with its task, or what else a family can do, such as a walk.
+def work_of(what: Any, task: str | None = None, plant: Sequence[str] = (), *, force: bool = False) -> Work:
+    """What is carried out: a task, a plan with its task, or what else a family can do, such as a walk; see `open_work`.
 
     Args:
         what: Its name or file, or what `load_task`, `load_walk`, `load_plan` or `plan` gave.
         task: Of a plan's name or file: the task that it is for, in place of its own.
         plant: Settings of the simulated robot, such as "backlash=1deg".
+        force: Whether a task is carried out by its own family even where that is not fit for it.
 
     Raises:
         OptionError: If it is none of these.
@@ -46,7 +47,7 @@ def work_of(what: Any, task: str | None = None, plant: Sequence[str] = ()) -> Wo
         ClamberError: If it cannot be had.
     """
     if isinstance(what, str | Path):
-        return open_work(str(what), task, [f"plant.{text}" for text in plant])
+        return open_work(str(what), task, [f"plant.{text}" for text in plant], force=force)
     item, plan = what, None
     if isinstance(what, PlanResult):
         if not what.has_plan:
@@ -56,4 +57,7 @@ def work_of(what: Any, task: str | None = None, plant: Sequence[str] = ()) -> Wo
         item, plan = what.rebuild_task(), what
     if not hasattr(item, "document"):
         raise OptionError("what", f"{short(what)} is no task, plan or walk", "give one, or its name or file")
-    return Work(family=family_of(item), item=item, plan=plan, label=item.name, plant=tuple(plant))
+    family, label = family_of(item), item.name
+    if plan is None and not force:
+        family, item, _ = fit_family(family, item)
+    return Work(family=family, item=item, plan=plan, label=label, plant=tuple(plant))

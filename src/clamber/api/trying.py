@@ -54,7 +54,7 @@ def trials(
         check_kind(name, value, int)
     seeds = range(seed, seed + n)
     are_held_out(seeds)
-    work = work_of(what, options.get("task"), texts("plant", plant))
+    work = work_of(what, options.get("task"), texts("plant", plant), force=options.get("force", False))
     request = TrialsRequest(
         planner=options.get("planner", "auto"),
         plan_seconds=options.get("seconds", 600.0),
@@ -109,5 +109,5 @@ def validate(
         ("seconds", seconds, float),
     ):
         check_kind(name, value, kind)
-    work, widths = work_of(plan, task), texts("noise", noise)
+    work, widths = work_of(plan, task, force=True), texts("noise", noise)
     return _validate(work, widths, executor_for(crew), range(seed, seed + n), lessons=lessons, seconds=float(seconds))

@@ -16,10 +16,10 @@ from ..families.spatial.statics.checks import STANCE_CHECK
 from ..families.spatial.statics.judging import rules_record
 from ..families.spatial.trials.law_rivals import RIVALS, Rival, installed
 from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, time_loop, try_law
+from ..families.spatial.trials.rival_stances import Stances, jet_stances, shipped_stances
+from ..families.spatial.trials.stance_rivals import Verdict, connect, highs, hpp, jet_leg, programme
 from .control_speed import round_times
 from .rows import NOTHING, Row, Say, keep_quiet
-from .space_rivals import Verdict, connect, highs, hpp, jet_leg, programme
-from .space_stances import Stances, jet_stances, shipped_stances
 
 RATES: Final = {"gripper-climber": ">= 60 000", "hexapod": ">= 30 000", "clamp-triped": ">= 25 000"}
 """Robot -> checks a second that the project aims at, on a core."""

@@ -1,9 +1,9 @@
 """The texts of files to start from: a document's values, and above each key what its spec says of it."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 from ..errors import OptionError
 from ..families.climber.family import CLIMBER
@@ -30,6 +30,12 @@ HOW: Final = (
     'A line that begins with "#" and no blank is a key that is not stated: take the "#" away to state it.'
 )
 LIMBS: Final = 4
+EXAMPLES: Final = {
+    (spec, key): value
+    for spec, keys in read_toml(Path(__file__).parent / "examples.toml", "examples").data.items()
+    for key, value in keys.items()
+}
+"""Values of keys that are not stated, where the spec has no default to show."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,47 +186,3 @@ def _from(path: Path, named: str) -> str:
         return named
     target, folder = user_path(named).resolve(), path.resolve().parent
     return str(target.relative_to(folder)) if target.is_relative_to(folder) else str(target)
-
-
-EXAMPLES: Final[Mapping[tuple[str, str], Any]] = {
-    ("Joint", "torque_limit"): "5 N m",
-    ("Joint", "no_load_speed"): "4 rad/s",
-    ("EndEffector", "cone"): "70 deg",
-    ("EndEffector", "friction"): 0.5,
-    ("EndEffector", "strength"): "30 N",
-    ("EndEffector", "opening"): "5 cm",
-    ("Motor", "amplifier_gain"): "0.5 A/V",
-    ("Motor", "control_rate"): "500 Hz",
-    ("Motor", "continuous_torque"): "2 N m",
-    ("Motor", "thermal_time"): "120 s",
-    ("LimbedRobot", "opposed"): [["limb-1", "limb-2"]],
-    ("BoardSpec", "keep_out"): [[["-40 cm", "0 cm"], ["-30 cm", "0 cm"], ["-30 cm", "20 cm"]]],
-    ("BoardSpec", "added"): [{"number": 900, "x": "-1 m", "y": "0 m"}],
-    ("BoardSpec", "hold_radius"): "5 mm",
-    ("LadderSpec", "rungs"): 11,
-    ("LadderSpec", "spacing"): "15 cm",
-    ("LadderSpec", "width"): "45 cm",
-    ("LadderSpec", "removed"): [7],
-    ("GridSpec", "columns"): 5,
-    ("GridSpec", "rows"): 8,
-    ("GridSpec", "spacing"): "15 cm",
-    ("GridSpec", "strength"): "30 N",
-    ("RandomSpec", "holds"): 100,
-    ("RandomSpec", "density"): "20 holds/m^2",
-    ("RandomSpec", "width"): "2 m",
-    ("RandomSpec", "least_gap"): "8 cm",
-    ("Rules", "max_power"): "80 W",
-    ("Rules", "allowed"): ["move", "grab", "release"],
-    ("Goal", "at"): ["30 cm", "90 cm"],
-    ("Goal", "x_min"): "0 cm",
-    ("Goal", "x_max"): "60 cm",
-    ("Goal", "y_min"): "80 cm",
-    ("Goal", "y_max"): "1.2 m",
-    ("Goal", "theta_min"): "-15 deg",
-    ("Goal", "theta_max"): "15 deg",
-    ("Goal", "region"): [["0 cm", "60 cm"], ["60 cm", "60 cm"], ["30 cm", "1 m"]],
-    ("Goal", "centre"): ["30 cm", "50 cm"],
-    ("Mechanism", "radius_delta"): "30 cm",
-    ("Mechanism", "radius_y"): "30 cm",
-}
-"""Values of keys that are not stated, where the spec has no default to show."""

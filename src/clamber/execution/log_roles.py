@@ -50,39 +50,18 @@ ROLES: Final[dict[str, tuple[str, str]]] = {
 """Role -> field of `JointSamples` and dimension."""
 DRIVES: Final = frozenset({"torque", "command", "current", "torque sensed"})
 """What drives a joint: an angle without one, such as a body's, is no joint's."""
-_WORDS: Final[dict[tuple[str, ...], str | None]] = {
-    ("output", "angle"): "output angle",
-    ("output", "position"): "output angle",
-    ("load", "angle"): "output angle",
-    ("load", "position"): "output angle",
-    ("link", "angle"): "output angle",
-    ("torque", "sensed"): "torque sensed",
-    ("sensed", "torque"): "torque sensed",
-    ("measured", "torque"): "torque sensed",
-    ("torque", "measured"): "torque sensed",
-    ("torque", "commanded"): None,
-    ("commanded", "torque"): None,
-    ("output", "speed"): None,
-    ("timestamp",): "time",
-    ("time",): "time",
-    ("t",): "time",
-    ("angle",): "angle",
-    ("position",): "angle",
-    ("pos",): "angle",
-    ("theta",): "angle",
-    ("q",): "angle",
-    ("torque",): "torque",
-    ("effort",): "torque",
-    ("tau",): "torque",
-    ("command",): "command",
-    ("voltage",): "command",
-    ("volts",): "command",
-    ("cmd",): "command",
-    ("u",): "command",
-    ("current",): "current",
-    ("amps",): "current",
-    ("i",): "current",
+_NAMES: Final[dict[str | None, str]] = {
+    "output angle": "output angle, output position, load angle, load position, link angle",
+    "torque sensed": "torque sensed, sensed torque, measured torque, torque measured",
+    None: "torque commanded, commanded torque, output speed",
+    "time": "timestamp, time, t",
+    "angle": "angle, position, pos, theta, q",
+    "torque": "torque, effort, tau",
+    "command": "command, voltage, volts, cmd, u",
+    "current": "current, amps, i",
 }
+"""Role -> what columns of it are called; of None they are passed over."""
+_WORDS: Final = {tuple(name.split()): role for role, names in _NAMES.items() for name in names.split(", ")}
 """Words of a column's name -> its role; the longer ones are looked for first, None is passed over."""
 LEAST_ROWS: Final = 20
 """Of fewer samples nothing is identified."""

@@ -21,6 +21,7 @@ from ..planning.progress import Listener
 if TYPE_CHECKING:  # loads what only commands need
     from rich.console import Console
 
+    from ..tasks.imported import PlaneClimb
     from .trial_runs import Setup
 
 
@@ -161,6 +162,14 @@ class Dynamics(ABC):
 
     def unfit(self, task: Any) -> str | None:
         """What speaks against carrying out any plan of a task, whatever it is; None where nothing is known."""
+        return None
+
+    def in_plane(self, task: Any) -> PlaneClimb | None:
+        """A task as a family in space takes it that carries it out in place of this one; None: none can."""
+        return None
+
+    def of_plane(self, climb: PlaneClimb) -> Any:
+        """The task that states a climb of another family; None: this one has no such tasks."""
         return None
 
     def objection(self, task: Any, plan: Plan, label: str = "plan") -> str | None:

@@ -36,6 +36,8 @@ class Work:
     """What errors call it."""
     plant: tuple[str, ...]
     """Settings of the plant, such as "backlash=1deg"."""
+    note: str | None = None
+    """What is to be told before anything is done."""
 
     @property
     def dynamics(self) -> Dynamics:
@@ -98,13 +100,14 @@ def _as_typed(task: Task) -> str:
     return task.name if known else "TASK"
 
 
-def open_work(what: str, task: str | None = None, settings: Sequence[str] = ()) -> Work:
-    """What a name or a file means.
+def open_work(what: str, task: str | None = None, settings: Sequence[str] = (), *, force: bool = False) -> Work:
+    """What a name or a file means; a task that its family's control is not fit for is another's that is, where there is one.
 
     Args:
         what: A task's or a plan's name or file, or that of what else a family can carry out, such as a walk.
         task: A task in place of the one that the plan names.
         settings: Texts "key=value" for the task, and for the plant where they start with `plant.`.
+        force: Whether it is carried out by its own family all the same.
 
     Raises:
         SpecError: If a plan's task is given beside a task.
@@ -113,7 +116,7 @@ def open_work(what: str, task: str | None = None, settings: Sequence[str] = ()) 
     """
     for_task, for_plant = split_settings(settings)
     check_name(what, tuple(name for family in families() for name in family.other_names()))
-    plan = None
+    plan = note = None
     for family in families():
         item = family.other_work(what, for_task)
         if item is not None:
@@ -127,4 +130,17 @@ def open_work(what: str, task: str | None = None, settings: Sequence[str] = ()) 
             if task is not None:
                 raise SpecError(what, "--task", task, "is for a plan; this is a task itself")
         family = family_of(item)
-    return Work(family=family, item=item, plan=plan, label=what, plant=tuple(for_plant))
+        if plan is None and not force:
+            family, item, note = fit_family(family, item)
+    return Work(family=family, item=item, plan=plan, label=what, plant=tuple(for_plant), note=note)
+
+
+def fit_family(family: Family, task: Task) -> tuple[Family, Task, str | None]:
+    """The family that carries a task out, the task as it has it, and, where that is not its own, why."""
+    unfit = None if family.dynamics is None else family.dynamics.unfit(task)
+    climb = None if unfit is None or family.dynamics is None else family.dynamics.in_plane(task)
+    for other in families():
+        stated = None if climb is None or other.dynamics is None else other.dynamics.of_plane(climb)
+        if stated is not None:
+            return other, stated, f"{unfit}; it is planned and carried out as a {other.title}"
+    return family, task, None

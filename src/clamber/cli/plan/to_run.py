@@ -14,7 +14,7 @@ from ...terminal.compile_ahead import compile_ahead
 from ...terminal.live_line import LiveLine
 from ...terminal.output import refuse_unused, stderr, tell_cuts
 from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
-from ...trials.work import dynamics_of
+from ...trials.work import dynamics_of, fit_family
 from .options import PlanOptions
 
 TAKEN: Final = frozenset({"to_run", "planner", "overrides", "seed", "seconds", "output", "as_json", "quiet"})
@@ -29,7 +29,8 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
         NotOfFamilyError: If the robots of the task's family are never carried out.
         BadParameter: If an option is given that has no meaning here.
     """
-    dynamics, clock = dynamics_of(family_of(task)), Clock()
+    family, task, note = fit_family(family_of(task), task)
+    dynamics, clock = dynamics_of(family), Clock()
     unused = PlanOptions.__dataclass_fields__.keys() - TAKEN
     refuse_unused(words, unused, "--to-run plans as `clamber run` does")
     asked = RunRequest(planner=words.chosen, seed=words.seed)
@@ -38,6 +39,8 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
     compile_ahead(*dynamics.compiled)
     cuts: list[None] = []
     with LiveLine(stderr(), quiet=words.quiet, doing="preparing the search") as line:
+        if note and not words.quiet:
+            line.say(note)
         events = RunEvents(
             search=lambda moment: line.show(progress_text(moment)),
             cut=lambda: cuts.append(None),

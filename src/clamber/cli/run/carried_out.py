@@ -46,6 +46,8 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             log=words.log(line.say),
         )
         work.check(asked)
+        if work.note and not words.quiet:
+            line.say(work.note)
         if words.report is not None:
             open_report(words.report, dynamics.kind)
         compile_ahead(*dynamics.compiled)

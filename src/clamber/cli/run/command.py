@@ -61,4 +61,5 @@ def run(
     from ...trials.work import open_work
     from .carried_out import carry_out
 
-    carry_out(open_work(what, words.task, words.overrides or ()), words, repeat_words(context, NOT_REPEATED))
+    work = open_work(what, words.task, words.overrides or (), force=words.force)
+    carry_out(work, words, repeat_words(context, NOT_REPEATED))

@@ -101,6 +101,8 @@ def _tried(work: Work, request: TrialsRequest, asked: TrialsOptions, words: Work
     dynamics = work.dynamics
     compile_ahead(*dynamics.compiled)
     with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing the {dynamics.kind}") as line:
+        if work.note and not words.quiet:
+            line.say(work.note)
         setup = _planned(work, request, words, line)
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))

@@ -140,4 +140,5 @@ def trials(
 
     asked.check()
     named = [what, asked.against or what] if asked.compares else [what]
-    try_out([open_work(each, asked.task, asked.overrides or ()) for each in named], asked, words)
+    works = [open_work(each, asked.task, asked.overrides or (), force=asked.force) for each in named]
+    try_out(works, asked, words)

@@ -1,18 +1,25 @@
 """Climbs in contact dynamics: one, and many under model error."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Final
 
+import numpy as np
+
 from ...errors import SpecError
 from ...execution.fault import FAULTS, check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
+from ...planning.problem.problems import plan_family
+from ...tasks.imported import PlaneClimb
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
-from .execution.body_gains import too_weak
+from .execution.body_gains import MOST_LIMBS, unfit
 from .execution.executable_plan import climbable, objections_to
 from .planning.task import LimbedTask
+from .sim.climber_model import lone_climber
+from .trajectories import climb_stances
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.plan_validation import validations
 from .trials.planning import no_plan, plan_to_climb, replanner
@@ -71,9 +78,9 @@ class ClimberDynamics(Dynamics):
     def plan(self, task: LimbedTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with something kept back, and rehearsed."""
         task = climbing_task(task)
-        weak = None if asked.force else too_weak(task.robot)
-        if weak is not None:
-            raise NoPlanError(asked.planner, task.name, f"can be carried out: {weak}")
+        why = None if asked.force else unfit(task.robot)
+        if why is not None:
+            raise NoPlanError(asked.planner, task.name, f"can be carried out: {why}")
         flaws = climbing_flaws(task, asked.plant)
 
         plan = plan_to_climb(task, asked.planner, validate_plan=validations(flaws, events), **_search(asked, events))
@@ -82,8 +89,46 @@ class ClimberDynamics(Dynamics):
         return plan
 
     def unfit(self, task: LimbedTask) -> str | None:
-        """Motors weaker than control asks for."""
-        return too_weak(task.robot)
+        """Motors weaker than control asks for, or limbs that it does not know."""
+        return unfit(task.robot)
+
+    def in_plane(self, task: LimbedTask) -> PlaneClimb | None:
+        """That of limbs that grip, four or more, so that one may swing while the others hold the robot to its wall.
+
+        Holds that bear in some directions alone are left out.
+        """
+        robot, start, limbs = task.robot, task.start, task.robot.limbs
+        boxes = all(goal.region is None and not goal.holds and goal.turns is None for goal in task.goals)
+        holds = [hold for hold in task.world.holds if hold.direction is None]
+        if not (boxes and robot.grips and len(limbs) > MOST_LIMBS and holds):
+            return None
+        places = {hold.number: k for k, hold in enumerate(holds, start=1)}
+        held = {limb: places[hold] for limb, hold in start.holds.items() if hold in places}
+        joints = climb_stances(task, plan_family(task).problem(task).replay(())).positions[0].reshape(-1, 2)
+        openings = [limb.end.opening for limb in limbs if limb.end.opening is not None]
+        strengths = [limb.end.strength for limb in limbs if limb.end.strength is not None]
+        spec, _ = lone_climber(robot)
+        spec.compile()
+        return PlaneClimb(
+            name=task.name,
+            title=task.title,
+            robot=robot.name,
+            wall=task.world.name,
+            model=spec.to_xml(),
+            limbs={limb.name: tuple(joints[i].tolist()) for i, limb in enumerate(limbs)},
+            speed=min(map(robot.no_load_speed_of, robot.joints)),
+            weight=robot.weight,
+            opening=min(openings, default=None),
+            strength=min(strengths, default=None),
+            holds=np.array([(hold.x, hold.y) for hold in holds]),
+            strengths=np.array([hold.strength or math.inf for hold in holds]),
+            radius=max(hold.radius for hold in holds),
+            start=(start.x, start.y, start.theta),
+            held=held if len(held) == len(limbs) else None,
+            length=task.step.length,
+            angle=task.step.angle,
+            goals=task.goals,
+        )
 
     def objection(self, task: LimbedTask, plan: Plan, label: str = "plan") -> str | None:
         """By the task under the rules that can be carried out."""
@@ -99,7 +144,7 @@ class ClimberDynamics(Dynamics):
         if plan is None:
             plan = self.plan(task, asked, events)
             events.planned(plan)
-        _refuse_weak(task, asked)
+        _refuse_unfit(task, asked)
         search = replanner(asked.planner, **_search(asked, events))
 
         def planned_again(task: LimbedTask) -> Plan | None:
@@ -136,7 +181,7 @@ class ClimberDynamics(Dynamics):
         label: str = "plan",
     ) -> TrialSetup:
         """What all climbs have in common."""
-        _refuse_weak(work, asked)
+        _refuse_unfit(work, asked)
         setup = TrialSetup(
             task=climbing_task(work),
             noise=_noise(asked),
@@ -175,12 +220,10 @@ class ClimberDynamics(Dynamics):
         draw_trials(sum_up(trials), file, units_of(trials.setup.task.document))
 
 
-def _refuse_weak(task: LimbedTask, asked: Conditions) -> None:
-    weak = None if asked.force else too_weak(task.robot)
-    if weak is not None:
-        raise SpecError(
-            f"task '{task.name}'", "robot", task.robot.name, f"{weak}; nothing has moved (--force tries it)"
-        )
+def _refuse_unfit(task: LimbedTask, asked: Conditions) -> None:
+    why = None if asked.force else unfit(task.robot)
+    if why is not None:
+        raise SpecError(f"task '{task.name}'", "robot", task.robot.name, f"{why}; nothing has moved (--force tries it)")
 
 
 def _search(asked: RunRequest, events: RunEvents) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from ...errors import SpecError
 from ...execution.fault import check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
+from ...tasks.imported import PlaneClimb
 from ...trials.dynamics import (
     Conditions,
     Dynamics,
@@ -22,6 +23,7 @@ from ...trials.dynamics import (
 )
 from .control.laws import USUAL, body_law
 from .execution.faulty_spatial import fault_kinds
+from .planning.plane_climb import task_of
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
 from .trials.noise import (
@@ -80,6 +82,10 @@ class SpatialDynamics(Dynamics):
         _noise(asked)
         if isinstance(asked, TrialsRequest):
             check_faults(asked.faults, fault_kinds(work.robot))
+
+    def of_plane(self, climb: PlaneClimb) -> SpatialTask:
+        """The same in the plane of a wall."""
+        return task_of(climb)
 
     def plan(self, task: SpatialTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with more in reserve than the checks ask for."""

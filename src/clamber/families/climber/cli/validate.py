@@ -107,7 +107,7 @@ def validate(
     from ....trials.work import open_work
     from ..trials.plan_repair import validate_plan as learned_by
 
-    work = open_work(plan, asked.task, asked.overrides or ())
+    work = open_work(plan, asked.task, asked.overrides or (), force=True)
     if work.plan is None:
         raise typer.BadParameter(f"'{plan}' is a task; `clamber plan` makes a plan for it", param_hint="PLAN")
     executor = executor_of(ray, workers)

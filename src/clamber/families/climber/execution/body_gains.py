@@ -81,8 +81,12 @@ USUAL: Final = BodyGains()
 """Those of a climb."""
 
 
-def too_weak(robot: LimbedRobot) -> str | None:
-    """Why a robot's motors cannot do what control asks of them; None where nothing is known against it.
+MOST_LIMBS: Final = 3
+"""With more limbs that grip, nothing has climbed by this control."""
+
+
+def unfit(robot: LimbedRobot) -> str | None:
+    """Why a robot cannot do what control asks of it; None where nothing is known against it.
 
     Control has a limb tug at its hold by up to `firm`, whatever the robot's size: motors that give less stand under full torque there,
     which is taken for a fault.
@@ -90,7 +94,13 @@ def too_weak(robot: LimbedRobot) -> str | None:
     weakest = min(robot.joints, key=robot.torque_limit_of)
     least = robot.torque_limit_of(weakest)
     if least >= USUAL.firm:
-        return None
+        n = len(robot.limbs)
+        few = n <= MOST_LIMBS or not robot.grips
+        return (
+            None
+            if few
+            else f"today's control of climbers is for {MOST_LIMBS} limbs, and '{robot.name}' has {n} that grip"
+        )
     return (
         f"today's control of climbers asks up to {USUAL.firm:g} N m of every joint, and joint {weakest.number} of "
         f"'{robot.name}' gives {least:.3g} N m (motor.torque_limit); docs/own-robot.md says which robots climb"

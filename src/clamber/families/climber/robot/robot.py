@@ -216,6 +216,11 @@ class LimbedRobot(Pictured):
         """Its own, or that of all motors [rad/s]."""
         return joint.no_load_speed or self.motor.no_load_speed
 
+    @property
+    def grips(self) -> bool:
+        """Whether all limbs end in grippers."""
+        return all(limb.end.kind == "gripper" for limb in self.limbs)
+
     def outline(self) -> Floats:
         """Corners of the body without its margin: the convex hull of the ports, anticlockwise, body frame, shape (n, 2) [m]."""
         return _hull((limb.port_x, limb.port_y) for limb in self.limbs)

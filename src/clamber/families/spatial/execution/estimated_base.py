@@ -11,6 +11,7 @@ from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
 from ..control.base_filter_kernels import tell
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
+from ..world.solids import frame_about
 from ..world.world import World
 from .plant import Pose, SpatialSensed
 
@@ -109,8 +110,11 @@ class EstimatedBase:
         return int(np.argmin(np.einsum("ij,ij->i", away, away))) == hold
 
     def _centres(self, limb: int, hold: int) -> Floats:
-        """Axes along which an end effector centres itself on a hold: all, or those across its bar, shape (n, 3)."""
-        if not self._bears[limb].bar:
+        """Axes along which an end effector centres itself on a hold: all, or those across its bar or within its jaws, shape (n, 3)."""
+        strength = self._bears[limb]
+        if strength.jaws:
+            return frame_about(self._normals[hold])[:2]
+        if not strength.bar:
             return IDENTITY
         normal, along = self._normals[hold], self.filter.believed.directions[limb, :, 0]
         across: Floats = np.cross(normal, along)

@@ -96,6 +96,8 @@ class Gripper:
     """It attaches beside a hold's patch by no more than this [m]."""
     centring: NonNegativeLength = CENTRING
     """As it shuts, it draws its tip to the hold's place from no further than this [m]; 0: it stays where it attaches."""
+    jaws: NonNegativeLength = 0.0
+    """Depth of its jaws: it takes what stands out, such as a peg, anywhere within them [m]; 0: it lies on its holds."""
 
     def contact(self) -> Contact:
         """What it can take: a friction cone whose apex lies at the pull-off force."""
@@ -104,7 +106,12 @@ class Gripper:
     def bears(self) -> Strength:
         """Exactly what it bears."""
         return Strength(
-            form="cone", friction=self.friction, pull=self.pull, capture=self.capture, centring=self.centring
+            form="cone",
+            friction=self.friction,
+            pull=self.pull,
+            capture=self.capture,
+            centring=self.centring,
+            jaws=self.jaws,
         )
 
 

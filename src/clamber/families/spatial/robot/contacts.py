@@ -101,6 +101,8 @@ class Strength:
     """As it shuts, it draws itself to the hold's own place from no further than this [m]; 0: it stays where it attaches."""
     bar: bool = False
     """Whether it centres across the bar alone that it hangs on, and stays where it is along that."""
+    jaws: float = 0.0
+    """It attaches anywhere within so much along the hold's normal, and stays there as it centres [m]; 0: on the hold's surface."""
     tilt: float = math.inf
     """Largest angle of its z from the inward normal at which it attaches [rad]."""
     tilt_loss: float = 0.0

@@ -245,8 +245,8 @@ class Ends:
         capture, off = self._capture[limb], self._site_places[self._sites[limb]] - self._places[hold]
         out = float(off @ self._normals[hold])
         aside = math.sqrt(max(0.0, float(off @ off) - out * out)) - self._own_radii[hold]
-        near = abs(out) <= CLOSE * capture and aside <= capture
-        return near and self._tilt(limb, hold) <= self._strengths[limb].tilt
+        deep = self._strengths[limb].jaws / 2.0 or CLOSE * capture
+        return abs(out) <= deep and aside <= capture and self._tilt(limb, hold) <= self._strengths[limb].tilt
 
     def _tilt(self, limb: int, hold: int) -> float:
         inward = -float(self._site_axes[self._sites[limb]].reshape(3, 3)[:, 2] @ self._normals[hold])
@@ -259,7 +259,7 @@ class Ends:
         """Put a hold's patch beneath a limb."""
         self._under[limb] = hold
         geom, mocap = self._patches[limb], self._mocaps[limb]
-        if hold < 0:
+        if hold < 0 or self._strengths[limb].jaws:  # jaws close about what they hold, and lie on nothing
             self._data.mocap_pos[mocap] = (FAR, FAR, FAR)
             return
         radius, normal = self._own_radii[hold] + self._reach(limb), self._normals[hold]
@@ -312,9 +312,10 @@ class Ends:
     def _seat(self, limb: int, hold: int) -> Floats:
         """Where an end effector that closes about a hold comes to lie [m], shape (3,)."""
         strength, at = self._strengths[limb], self._anchors[limb]
-        off = self._places[hold] - at
+        off, normal = self._places[hold] - at, self._normals[hold]
+        if strength.jaws:
+            off = off - (off @ normal) * normal
         if strength.bar:
-            normal = self._normals[hold]
             along = self._site_axes[self._sites[limb]].reshape(3, 3)[:, 0]
             along = along - (along @ normal) * normal
             off = off - (off @ along) / max(float(along @ along), 1e-12) * along

@@ -10,10 +10,10 @@ from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from ..families.spatial.robot.chains import Chains
-from ..families.spatial.statics.judging import REACHED, rules_record
-from ..types import Floats
-from .space_stances import FRICTION, MASS, TORQUE, Stances
+from ....types import Floats
+from ..robot.chains import Chains
+from ..statics.judging import REACHED, rules_record
+from .rival_stances import FRICTION, MASS, TORQUE, Stances
 
 Verdict: TypeAlias = Callable[[int], bool]
 """Whether a stance of a batch stands, by its index."""

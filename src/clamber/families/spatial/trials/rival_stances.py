@@ -6,13 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..families.spatial.robot.chains import Chains
-from ..families.spatial.robot.contacts import Contact, Row, line
-from ..families.spatial.statics.judging import Statics
-from ..families.spatial.statics.kinematics_kernels import limb_frames
-from ..families.spatial.statics.records import WORK
-from ..tasks.robots import read_robot
-from ..types import Floats, Records
+from ....tasks.robots import read_robot
+from ....types import Floats, Records
+from ..robot.chains import Chains
+from ..robot.contacts import Contact, Row, line
+from ..statics.judging import Statics
+from ..statics.kinematics_kernels import limb_frames
+from ..statics.records import WORK
 
 FRICTION: Final = 0.8
 MASS: Final = 85.0
@@ -111,7 +111,7 @@ def jet_stances(n: int, seed: int = 1) -> Stances:
 
 def shipped_stances(robot: str, n: int, seed: int = 1) -> Stances:
     """A robot that comes with Clamber on holds about its nominal tips, normals leaning at random."""
-    from ..families.spatial.robot.robot import build_robot
+    from ..robot.robot import build_robot
 
     built = build_robot(read_robot(robot))
     return _stances(robot, built.chains, tuple(built.contacts), n, seed)
