@@ -97,6 +97,8 @@ class ClimberDynamics(Dynamics):
 
         Holds that bear in some directions alone are left out.
         """
+        import mujoco
+
         robot, start, limbs = task.robot, task.start, task.robot.limbs
         boxes = all(goal.region is None and not goal.holds and goal.turns is None for goal in task.goals)
         holds = [hold for hold in task.world.holds if hold.direction is None]
@@ -108,6 +110,8 @@ class ClimberDynamics(Dynamics):
         openings = [limb.end.opening for limb in limbs if limb.end.opening is not None]
         strengths = [limb.end.strength for limb in limbs if limb.end.strength is not None]
         spec, _ = lone_climber(robot)
+        half = np.abs(robot.outline()).max(axis=0)  # its body has no shape in the plane: links pass over it
+        spec.body("body").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(*half, robot.link_radius), mass=0.0)
         spec.compile()
         return PlaneClimb(
             name=task.name,

@@ -108,14 +108,14 @@ def _world(climb: PlaneClimb) -> Json:
         strength = climb.strengths[number - 1]
         own = {} if math.isinf(strength) else {"strength": f"{strength:.9g} N"}
         holds.append({"number": number, "at": _place(x, y), "normal": normal, **own})
-    highest = float(np.max(climb.holds[:, 1])) + 1.0
+    highest = max(float(np.max(climb.holds[:, 1])), *(goal.y_min or -math.inf for goal in climb.goals), climb.start[1])
     guide = [{"at": _place(climb.start[0], _lowest(climb)), "normal": normal}, {"at": _place(climb.start[0], highest)}]
     return {"schema": "clamber-world-1", "name": climb.wall, "title": climb.wall, "guide": guide, "holds": holds}
 
 
 def _lowest(climb: PlaneClimb) -> float:
-    """Height at which the guide begins: below all that there is [m]."""
-    return min(float(np.min(climb.holds[:, 1])), climb.start[1]) - 1.0
+    """Height at which the guide begins [m]."""
+    return min(float(np.min(climb.holds[:, 1])), climb.start[1])
 
 
 def _goal(climb: PlaneClimb, goal: GoalBox) -> Mapping[str, str]:
