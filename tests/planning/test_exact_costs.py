@@ -250,7 +250,7 @@ def test_the_exact_planner_keeps_to_its_time_where_bound_and_stances_are_costly(
     plan_exact(load_task("h", (NO_HANGS, "step.length=3in")))  # compiles what it needs
     before = time.process_time()
     result = plan_exact(task, seconds=1.0)
-    assert time.process_time() - before < 6.0, "it was 25 s"
+    assert time.process_time() - before < 3.0, "it was 25 s"
     assert result.status == "bounded" and result.lower_bound is not None and result.lower_bound > 0
 
 
