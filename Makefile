@@ -62,11 +62,14 @@ slow: setup  ## slow tests: peers, walks, climbs, every command of the pages
 	$(MAKE) bounds
 
 # Compiling takes most of the time, so a few tests of every folder with kernels. Left out: rivals and reach maps, which share `step` and
-# `candidates` with the planners, climbs and walks, whose kernels are those of control, and all that compares speed.
+# `candidates` with the planners, climbs and walks in the plane, whose kernels are those of control, and all that compares speed.
 BOUNDED := tests/actions/test_plan.py tests/actions/test_walker.py tests/statics tests/planning/test_planning.py tests/planning/test_exact.py \
-	tests/planning/test_crafted_files.py tests/control/test_body.py tests/control/test_laws.py tests/control/test_hook_forces.py \
-	tests/control/test_load_shares.py tests/control/test_gait.py tests/control/test_identification.py tests/control/cooperative \
-	tests/sim/test_ode_limb.py tests/sim/test_walker_plant.py
+	tests/planning/test_exact_costs.py tests/planning/test_crafted_files.py tests/control/test_body.py tests/control/test_laws.py \
+	tests/control/test_hook_forces.py tests/control/test_load_shares.py tests/control/test_gait.py tests/control/test_identification.py \
+	tests/control/cooperative tests/control/whole_body tests/sim/test_ode_limb.py tests/sim/test_walker_plant.py \
+	tests/spatial/test_space_plans.py tests/spatial/test_space_proofs.py tests/spatial/test_lifted_paths.py \
+	tests/spatial/test_spatial_terrain.py tests/spatial/test_whole_body_laws.py tests/spatial/test_estimate.py \
+	tests/spatial/test_spatial_plant.py tests/spatial/test_break_away.py tests/spatial/test_carrying.py tests/spatial/test_space_faults.py
 
 bounds: setup  ## fast tests with every index of the kernels checked, a part of `make slow`
 	CLAMBER_BOUNDSCHECK=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 10 -m "not slow and not long" $(BOUNDED)

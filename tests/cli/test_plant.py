@@ -24,7 +24,6 @@ from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
-from tiers import first_fast
 
 PEGS = ("--noise", "peg_error=3mm", "--seed", "5")
 PATIENCE = 120.0  # a busy machine may compile first [s]
@@ -151,7 +150,7 @@ def test_a_served_plant_of_another_board_is_refused(clamber: Any, tmp_path: Path
         assert "its place is 'h'; must be 'ladder'" in err and "Traceback" not in err
 
 
-@pytest.mark.parametrize(("number", "code"), first_fast([(signal.SIGTERM, 143), (signal.SIGHUP, 129)]))
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_a_server_that_is_ended_stops_the_robot_safely_first_and_says_so(
     tmp_path: Path, number: signal.Signals, code: int
 ) -> None:

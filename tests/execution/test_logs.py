@@ -200,12 +200,22 @@ def test_a_stated_role_goes_before_what_the_names_say() -> None:
         ("time [s],q1\n0,1\n1,\n", r"column 'q1', row 2 = ''"),
         ("time [s],q1,q1\n0,1,2\n", "column 'q1': is there twice"),
         ("time [s],[rad]\n0,1\n", "must have a name"),
+        pytest.param(
+            f"time [s],q1\n0,1\n1,{'1' * 131_073}\n",
+            r"is not valid CSV: field larger than field limit \(131072\)",
+            id="a cell that is too long",
+        ),
     ],
 )
 def test_a_malformed_csv_names_file_column_row_and_value(text: str, message: str) -> None:
     with pytest.raises(LogError, match=message) as found:
         parse_csv(text, "bad.csv")
     assert str(found.value).startswith("bad.csv")
+
+
+def test_a_csv_of_lines_that_end_in_carriage_returns_alone_is_read(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_bytes(csv_text(ramp()).encode().replace(b"\n", b"\r"))
+    assert_equal(read_log(tmp_path / "a.csv"), ramp())
 
 
 def with_columns(**columns: object) -> Log:

@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from clamber.benchmarks.breadth import breadth_first
 from clamber.cli.app import application
 from clamber.compiled import kernel
+from clamber.kernel_cache import bounds_checked
 from clamber.planning.exact.costs import Aim, CostError, read_costs
 from clamber.planning.exact.explore import Exploration, explore
 from clamber.planning.exact.front import plan_front
@@ -250,7 +251,8 @@ def test_the_exact_planner_keeps_to_its_time_where_bound_and_stances_are_costly(
     plan_exact(load_task("h", (NO_HANGS, "step.length=3in")))  # compiles what it needs
     before = time.process_time()
     result = plan_exact(task, seconds=1.0)
-    assert time.process_time() - before < 6.0, "it was 25 s"
+    most = 6.0 if bounds_checked() else 3.0  # an index that is checked takes longer [s]
+    assert time.process_time() - before < most, "it was 25 s"
     assert result.status == "bounded" and result.lower_bound is not None and result.lower_bound > 0
 
 

@@ -7,6 +7,8 @@ from clamber.studies.hoshino_1995.tool_runs import DOFS, GAINS, RUNS, go, random
 from clamber.studies.library import STUDIES
 
 HOSHINO = STUDIES["hoshino-1995"]
+VERDICTS = {"fig-10": "open", "equation-19": "differs"}
+OF_THE_MEASURE = {"fig-11": "holds", "section-6-2": "holds"}
 
 
 def test_figure_10_is_left_open_by_a_speed_that_is_not_printed() -> None:
@@ -15,12 +17,12 @@ def test_figure_10_is_left_open_by_a_speed_that_is_not_printed() -> None:
     assert max(map(float, ends)) < 0.5  # type: ignore[arg-type]
     apart = {key: value for key, value in numbers.items() if "T_q of z" in key}
     assert list(apart.values()) == sorted(map(float, apart.values()))  # type: ignore[arg-type]
-    assert HOSHINO["fig-10"]().verdict == "open"
+    assert HOSHINO["fig-10"]().verdict == VERDICTS["fig-10"]
 
 
 def test_the_second_term_as_printed_often_lowers_the_measure() -> None:
     result = HOSHINO["equation-19"]()
-    assert result.verdict == "differs"
+    assert result.verdict == VERDICTS["equation-19"]
     assert result.numbers["right form: part of the postures in which V falls, most [-]"] == 0.0
     assert 0.1 < float(result.numbers["as printed: part of the postures in which V falls, most [-]"] or 0.0) < 0.6
 
@@ -43,10 +45,10 @@ def test_a_random_case_is_the_same_each_time_and_ends_in_reach() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["fig-11", "section-6-2"])
+@pytest.mark.parametrize("name", OF_THE_MEASURE)
 def test_the_claims_about_the_measure_hold_on_every_random_way(name: str) -> None:
     result = HOSHINO[name]()
-    assert result.verdict == "holds"
+    assert result.verdict == OF_THE_MEASURE[name]
     words = (
         "random ways of 60 on which the mean V grows from 0" if name == "fig-11" else "ways of 60 with a larger mean V"
     )

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.execution.hold_map import HoldMap, TipDifference
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import (
@@ -13,6 +14,8 @@ from clamber.families.climber.trials.noise import (
     terrain_covariance,
     true_places,
 )
+from clamber.families.climber.trials.trial import TrialSetup, climb_once
+from clamber.studies.bevly_1997.body_climb import gait_plan
 from clamber.tasks import load_task
 from clamber.types import Floats
 
@@ -131,3 +134,16 @@ def test_what_is_near_the_robot_is_known_better_than_what_is_far_even_where_all_
     assert hold_map.error(numbers[-1]) > 2.0 * hold_map.error(7)
     even = touched(None, task, np.zeros((len(task.world.holds), 2)))
     assert even.error(20) == pytest.approx(0.003)
+
+
+@pytest.mark.slow
+def test_two_rungs_are_climbed_on_a_board_warped_and_turned() -> None:
+    """Seed 1 turns the board by 6 deg; a peg that the climb takes is 51 mm off the map."""
+    task, noise = climbable(task_named("ladder")), read_noise(NO_NOISE, ["terrain=60mm", "tilt=6deg"])
+    plan = gait_plan(task, 2)
+    off = np.linalg.norm(true_places(task, draw_for(task, noise, 1)) - task.world.positions(), axis=1)
+    taken = {action.hold for action in plan.actions}
+    assert max(far for hold, far in zip(task.world.holds, off, strict=True) if hold.number in taken) > 0.05
+    _, trial, _ = climb_once(TrialSetup(task=task, noise=noise, plan=plan, replan=False), 1)
+    assert (trial.done, trial.reason) == (True, "")
+    assert (trial.grabs, trial.replans) == (7, 0)

@@ -85,8 +85,8 @@ def limit_pulls() -> StudyResult:
             "its peg; open if every hook stays on and the ideal rung is climbed, but rungs under noise are not; differs if a hook "
             "comes off or the ideal rung is not climbed. Nothing else in the table decides.",
             f"Noise: pegs off by up to {PEG_ERROR * MILLI:g} mm an axis (but for the three that the robot is put on), friction "
-            f"+-{FRICTION:.0%}, weight +-{WEIGHT:.0%}; 2 deg of backlash, 400 counts, a sample of delay. Seeds are held out: nothing "
-            "was tuned on them.",
+            f"+-{FRICTION:.0%}, weight +-{WEIGHT:.0%}; 2 deg of backlash, 400 counts, a sample of delay. Seeds were held out when "
+            "this was written: nothing had been tuned on them.",
         ),
         seeds=SEEDS,
         table=_table(noisy),
