@@ -18,7 +18,7 @@ from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, Run
 from .execution.body_gains import MOST_LIMBS, unfit
 from .execution.executable_plan import climbable, objections_to
 from .planning.task import LimbedTask
-from .sim.climber_model import lone_climber
+from .sim.climber_model import boxed_climber
 from .trajectories import climb_stances
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
 from .trials.plan_validation import validations
@@ -97,8 +97,6 @@ class ClimberDynamics(Dynamics):
 
         Holds that bear in some directions alone are left out.
         """
-        import mujoco
-
         robot, start, limbs = task.robot, task.start, task.robot.limbs
         boxes = all(goal.region is None and not goal.holds and goal.turns is None for goal in task.goals)
         holds = [hold for hold in task.world.holds if hold.direction is None]
@@ -109,16 +107,12 @@ class ClimberDynamics(Dynamics):
         joints = climb_stances(task, plan_family(task).problem(task).replay(())).positions[0].reshape(-1, 2)
         openings = [limb.end.opening for limb in limbs if limb.end.opening is not None]
         strengths = [limb.end.strength for limb in limbs if limb.end.strength is not None]
-        spec, _ = lone_climber(robot)
-        half = np.abs(robot.outline()).max(axis=0)  # its body has no shape in the plane: links pass over it
-        spec.body("body").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(*half, robot.link_radius), mass=0.0)
-        spec.compile()
         return PlaneClimb(
             name=task.name,
             title=task.title,
             robot=robot.name,
             wall=task.world.name,
-            model=spec.to_xml(),
+            model=boxed_climber(robot),
             limbs={limb.name: tuple(joints[i].tolist()) for i, limb in enumerate(limbs)},
             speed=min(map(robot.no_load_speed_of, robot.joints)),
             weight=robot.weight,

@@ -228,3 +228,15 @@ def lone_climber(robot: LimbedRobot) -> tuple[Any, dict[str, JointBounds]]:
         assert most is not None  # every joint of a climber has a motor with a limit
         motor.ctrllimited, motor.ctrlrange = True, (-most, most)
     return spec, bounds
+
+
+def boxed_climber(robot: LimbedRobot) -> str:
+    """MJCF of a climber alone, its body a box: in the plane it has no shape, as links pass over it."""
+    import mujoco
+
+    spec, _ = lone_climber(robot)
+    half = np.abs(robot.outline()).max(axis=0)
+    spec.body("body").add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(*half, robot.link_radius), mass=0.0)
+    spec.compile()
+    text: str = spec.to_xml()
+    return text
