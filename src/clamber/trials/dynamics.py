@@ -191,8 +191,9 @@ class Dynamics(ABC):
         Raises:
             ClamberError: If an action is none that the task's robot and world have.
         """
-        violated = check_plan(task, plan, label=label).first_violation
-        return None if violated is None else f"step {violated.step}: {violated.reason}"
+        verdict = check_plan(task, plan, label=label)
+        violated = verdict.first_violation
+        return None if violated is None else f"step {violated.step}: {verdict.why(violated)}"
 
     @abstractmethod
     def run(
