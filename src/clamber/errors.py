@@ -4,7 +4,7 @@ import difflib
 import unicodedata
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, dataclass_transform
+from typing import ClassVar, Self, dataclass_transform
 
 
 def printable(text: str) -> str:
@@ -156,6 +156,11 @@ class OptionError(StatedError):
     option: str
     problem: str
     allowed: str
+
+    @classmethod
+    def of_value(cls, option: str, value: object, problem: str, allowed: str) -> Self:
+        """The error about a value, shown in at most 60 letters."""
+        return cls(option, f"{_short(value, 60)} {problem}", allowed)
 
 
 class StartError(StatedError):

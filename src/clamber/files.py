@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from .errors import MISSING, ClamberError, FileError, SpecError, UnknownNameError, describe_choices
+from .errors import MISSING, ClamberError, FileError, OptionError, SpecError, UnknownNameError, describe_choices
 from .regular_files import is_file, is_folder, read_bytes, user_path
 from .regular_files import write_atomically as write_atomically
 from .types import Json
@@ -257,6 +257,17 @@ def data_names(folder: Path) -> tuple[str, ...]:
     return tuple(sorted(path.stem for path in folder.glob("*.toml")))
 
 
+def as_text(given: Any, option: str = "name_or_path") -> str:
+    """The text of a name or a path.
+
+    Raises:
+        OptionError: If it is neither.
+    """
+    if not isinstance(given, str | Path):
+        raise OptionError.of_value(option, given, "is no name or path", "give the text, or a `Path`, of one")
+    return str(given)
+
+
 def is_path(name_or_path: str) -> bool:
     """Whether a text is meant as a path rather than as the name of shipped data."""
     return "/" in name_or_path or os.sep in name_or_path or Path(name_or_path).suffix in {".toml", ".csv"}
@@ -274,6 +285,7 @@ def find_data(kind: str, name_or_path: str, folders: Sequence[Path], folder: Pat
     Raises:
         UnknownNameError: If it looks like a name and nothing shipped has it.
     """
+    name_or_path = as_text(name_or_path)
     if is_path(name_or_path):
         path = user_path(name_or_path)
         return (path if path.is_absolute() or folder is None else folder / path), name_or_path

@@ -11,6 +11,8 @@ import clamber
 from clamber.execution.log_files import read_log
 from clamber.execution.log_roles import samples_of
 
+NO_NAME = "name_or_path: 3 is no name or path; give the text, or a `Path`, of one"
+
 
 @pytest.mark.parametrize(
     ("call", "named"),
@@ -22,6 +24,22 @@ from clamber.execution.log_roles import samples_of
         (lambda: clamber.plan(3), "task: 3 is no task"),  # type: ignore[arg-type]
         (lambda: clamber.check(3), "what: 3 is no plan"),  # type: ignore[arg-type]
         (lambda: clamber.explain_infeasibility(None), "task: None is no task"),  # type: ignore[arg-type]
+        (lambda: clamber.load_task(3), NO_NAME),  # type: ignore[arg-type]
+        (lambda: clamber.load_robot(3), NO_NAME),  # type: ignore[arg-type]
+        (lambda: clamber.load_world(3), NO_NAME),  # type: ignore[arg-type]
+        (lambda: clamber.load_board(3), NO_NAME),  # type: ignore[arg-type]
+        (lambda: clamber.load_plan(3), NO_NAME),  # type: ignore[arg-type]
+        (lambda: clamber.load_walk(None), NO_NAME.replace("3", "None")),  # type: ignore[arg-type]
+        (lambda: clamber.draw("ladder", 3), NO_NAME.replace("name_or_path", "path")),  # type: ignore[arg-type]
+        (lambda: clamber.compare(3), "laws: 3 is no text, nor several; write it as"),  # type: ignore[arg-type]
+        (lambda: clamber.compare("scct", "circle", radius="x"), "radius: 'x' is not what it takes; it takes float"),
+        (lambda: clamber.compare("scct", "circle", dx=0.1), "dx: is no option here; there are centre, radius, lap"),
+        (lambda: clamber.compare("scct", "spin"), "motion: 'spin' is not what it takes; it takes Literal['step', "),  # type: ignore[arg-type]
+        (
+            lambda: clamber.change_task("ladder", ["start.y=6in"]),
+            "task: 'ladder' is no task; give one of `clamber.load",
+        ),  # type: ignore[arg-type]
+        (lambda: clamber.pose_problem(3), "task: 3 is no task; give one of `clamber.load_task`"),  # type: ignore[arg-type]
     ],
 )
 def test_a_wrong_argument_is_named(call: Any, named: str) -> None:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import typer
@@ -21,8 +22,12 @@ from clamber import interrupts
 from clamber.cli import main
 from clamber.families.climber.execution.climbing import Climbing
 from clamber.families.climber.trials.warm_up import warm_up
+from clamber.family import family_of
+from clamber.tasks import load_task
 from clamber.terminal.output import stderr
 from clamber.terminal.worker_options import EndsLine, keeping
+from clamber.trials.dynamics import RunEvents, RunRequest
+from clamber.trials.work import dynamics_of
 
 SCRIPT = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler); from clamber.cli import main; main()"
 """A shell that starts a process with "&" has it ignore SIGINT; one in the foreground does not."""
@@ -40,12 +45,15 @@ LONG = (
     "plan circle --planner hybrid --stances 20000000",
     "plan circle --planner mcts --checks 1000000000",
     "plan h --to-run",
+    "plan wall-gripper --to-run --planner exact",
     "shorten examples/across/plan.json --width 20000",
     "learn circle",
     "run circle",
     "run ladder-hand",
     "run slope-walk",
+    "run wall-gripper",
     "trials ladder-hand -n 100",
+    "trials wall-gripper -n 100 --workers 1",
     "validate ladder-hand",
     "reach h --hangs",
     "sweep ladder --vary board.spacing=8in..24in:60",
@@ -103,6 +111,13 @@ def alive(group: int) -> bool:
     except ProcessLookupError:
         return False
     return True
+
+
+def interrupted_planner(task: object, seconds: float, **_: object) -> SimpleNamespace:
+    """Answers Ctrl-C with the plan that it has, as planners do."""
+    with interrupts.Interruptible():
+        raise KeyboardInterrupt
+    return SimpleNamespace(has_plan=True, plan=None, seconds=seconds)
 
 
 @contextmanager
@@ -194,12 +209,26 @@ def test_what_there_is_is_told(words: str, first: str, kept: str, tmp_path: Path
         assert re.search(kept, command.out), command.out
 
 
-@pytest.mark.parametrize(("words", "said"), [("run ladder", "nothing has moved"), ("plan ladder --to-run", "")])
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [("run ladder", "nothing has moved"), ("plan ladder --to-run", ""), ("run wall-gripper", "nothing has moved")],
+)
 def test_an_interrupt_while_a_plan_is_searched_for_ends_the_command(words: str, said: str, tmp_path: Path) -> None:
     with running(words, tmp_path) as command:
         command.wait_for("stances")  # compiling may come first
         command.interrupt("in the search")
         assert command.out == "" and said in command.err
+
+
+@pytest.mark.parametrize("name", ["ladder", "patch-walk", "wall-gripper"])
+def test_what_an_interrupted_planner_has_is_not_carried_out(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("clamber.planning.genetic.planner.plan_genetic", interrupted_planner)
+    task = load_task(name)
+    dynamics = dynamics_of(family_of(task))
+    with pytest.raises(KeyboardInterrupt):
+        dynamics.run(
+            task, None, RunRequest(planner="genetic"), RunEvents(planned=lambda plan: pytest.fail("it has one"))
+        )
 
 
 IN_CALLBACKS = """

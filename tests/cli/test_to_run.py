@@ -1,6 +1,7 @@
 """Plans that can be carried out: `clamber plan --to-run`, and what `plan` and `check` say of plans that `clamber run` refuses."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
@@ -24,7 +25,7 @@ def test_plan_and_check_name_the_limit_that_stops_a_run_and_what_makes_a_plan_wi
     plan = str(tmp_path / "p.json")
     code, out, _ = clamber("plan", "ladder", "--planner", "genetic", "-o", plan, "-q")
     assert code == 0
-    assert "to run: refused, step 18: left grabs 15: hook is -8.879 N" in out
+    assert "to run: refused, step 18: left grabs 15: hook is -1.996 lbf" in out
     assert "for one that can be carried out: this command with --to-run" in out
     code, out, _ = clamber("check", plan)
     assert code == 0
@@ -32,7 +33,19 @@ def test_plan_and_check_name_the_limit_that_stops_a_run_and_what_makes_a_plan_wi
     assert "for one that can be carried out: clamber plan ladder --to-run" in out
     code, _, err = clamber("run", plan, "-q")
     assert code == 2
-    assert "step 18: left grabs 15: hook is -8.879 N" in err and "clamber plan TASK --to-run" in err
+    assert "step 18: left grabs 15: hook is -1.996 lbf" in err and "clamber plan ladder --to-run" in err
+    for command in (("check", plan), ("run", plan, "-q"), ("trials", plan, "-q")):
+        told = " ".join(clamber(*command, "--units", "si")[1:])
+        assert "step 18: left grabs 15: hook is -8.879 N" in told, command
+
+
+def test_the_limit_of_a_walkers_plan_is_in_the_units_that_are_asked_for(clamber: Run, tmp_path: Path) -> None:
+    plan = str(tmp_path / "p.json")
+    assert clamber("plan", "patch-walk", "--planner", "greedy", "-o", plan, "-q")[0] == 0
+    for units, unit in (("si", " mm"), ("imperial", " in")):
+        out = " ".join(clamber("check", plan, "--set", "rules.balance=60mm", "--units", units)[1].split())
+        told = re.search(r"to run: refused, step \d+: balance is short by [\d.]+( \w+) \(", out)
+        assert told is not None and told[1] == unit
 
 
 @pytest.mark.parametrize("task", first_fast(["gap", "patch-walk"]))

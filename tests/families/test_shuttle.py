@@ -7,11 +7,13 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
 from clamber import family
+from clamber.interrupts import Interruptible
 from clamber.planning.planners import PLANNERS
 
 HERE = Path(__file__).parent / "shuttle"
@@ -137,3 +139,14 @@ def test_it_runs_and_is_tried_out(clamber: Run, plan: Path) -> None:
         assert trial["done"] == (abs(trial["drawn"]["slip"]) <= 0.01)  # its least margin is 10 mm
     code, out, err = clamber("trials", str(plan), "-n", "2", "--replay", "3")
     assert code in (0, 1) and "24 actions" in out, err
+
+
+def test_what_an_interrupted_planner_has_is_not_simulated(clamber: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(task: object, **_: object) -> SimpleNamespace:
+        with Interruptible():
+            raise KeyboardInterrupt
+        return SimpleNamespace(has_plan=True)
+
+    monkeypatch.setattr("clamber.planning.genetic.planner.plan_genetic", interrupted)
+    code, out, err = clamber("run", "shuttle-line", "--planner", "genetic", "-q")
+    assert (code, out) == (130, "") and "nothing has moved" in err

@@ -1,6 +1,7 @@
 """Compare control laws on one limb: the same motion, the same plant, gains matched unless stated."""
 
 from collections.abc import Sequence
+from inspect import signature
 from typing import Any, Final
 
 from ..limb_bench.bench_limb import bench_limb, load_geared
@@ -9,6 +10,7 @@ from ..limb_bench.result import LimbResult, Matching, compare_laws
 from ..limb_bench.runner import Contest
 from ..limb_bench.scenario import MOTIONS, MotionKind
 from ..sim.flaw_texts import named_flaws, read_flaws
+from .options import check_kind, check_options, texts
 
 CENTRE: Final = (0.22, 0.0)
 RADIUS: Final = 0.05
@@ -58,8 +60,13 @@ def compare(
         true angles (`true`) and by the encoders (`encoder`), `work` [J], `saturated` [-]. `to_json()`, `save_table(path)`.
 
     Raises:
+        OptionError: If the motion has no such option, or one of another kind.
         ClamberError: If a law, a limb, a plant or a setting cannot be.
     """
+    laws, changes = texts("laws", laws), texts("changes", changes)
+    check_kind("motion", motion, MotionKind)
+    parameters = signature(MOTIONS[motion]).parameters.values()
+    check_options(how, {one.name: one.annotation for one in parameters if one.kind is one.KEYWORD_ONLY}, signed=True)
     properties = read_flaws(named_flaws(flaws, load_geared(robot)[0]), changes, seed, drawn=trials > 1)
     if tip is None:
         x, y = how.get("centre", CENTRE)

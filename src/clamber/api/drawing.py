@@ -5,6 +5,7 @@ from typing import Any
 
 from ..errors import StatedError
 from ..family import family_of
+from ..files import as_text
 from ..inspection.open_file import kind_of
 from ..limb_bench.pictures.comparison import draw_comparison
 from ..limb_bench.result import LimbResult
@@ -48,7 +49,7 @@ def draw(what: Any, path: str | Path, *, step: int | None = None, layer: str | N
         NotDrawnError: If it is none of these.
         ClamberError: If the file cannot be written, or its suffix names nothing that can be made of it.
     """
-    file = Path(path)
+    file = Path(as_text(path, "path"))
     made = what if isinstance(what, PlanResult) else getattr(what, "plan", what)  # such as what a plan has learned
     if isinstance(what, CarriedOut):
         draw_run(what, file)

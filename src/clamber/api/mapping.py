@@ -51,7 +51,7 @@ def sweep(
     Raises:
         ClamberError: If the task cannot be had, or the keys cannot be varied so.
     """
-    check_options(options, Points)
+    check_options(options, Points.__annotations__)
     check_kind("task", task, str)
     axes = [*map(range_axis, texts("vary", vary)), *map(values_axis, texts("values", values))]
     check_axes(axes)
@@ -94,11 +94,8 @@ def reach(
     Raises:
         ClamberError: If the task cannot be had, its start does not hold, or its actions cannot be listed.
     """
-    for name, value, kind in (
-        ("hangs", hangs, bool),
-        ("stances", stances, int),
-        ("seconds", seconds, float | None),
-        ("threads", threads, int | None),
-    ):
-        check_kind(name, value, kind)
+    check_kind("hangs", hangs, bool)
+    check_kind("stances", stances, int)
+    check_kind("seconds", seconds, float | None)
+    check_kind("threads", threads, int | None)
     return find_reach(task_of(task), hangs=hangs, max_stances=stances, seconds=seconds, threads=threads)

@@ -6,11 +6,11 @@ from typing import Any
 
 from ..errors import OptionError, PlannerError
 from ..family import family_of
+from ..files import as_text
 from ..inspection.open_file import file_kinds, kind_of
 from ..planning.problem.plan import Plan
 from ..planning.result import PlanResult
 from ..trials.work import Work, fit_family, open_work
-from .options import short
 
 
 def load_world(name_or_path: str) -> Any:
@@ -23,7 +23,7 @@ def load_world(name_or_path: str) -> Any:
         OptionError: If it is something else.
         ClamberError: If it cannot be had, or breaks a rule of its format.
     """
-    worlds = file_kinds()
+    name_or_path, worlds = as_text(name_or_path), file_kinds()
     # a task has the name of its world often, and is what the name means elsewhere
     named = [kind for kind, files in worlds.items() if name_or_path in files.names() and kind != "walk"]
     kind = named[0] if named else kind_of(name_or_path)
@@ -56,7 +56,7 @@ def work_of(what: Any, task: str | None = None, plant: Sequence[str] = (), *, fo
     elif isinstance(what, Plan):
         item, plan = what.rebuild_task(), what
     if not hasattr(item, "document"):
-        raise OptionError("what", f"{short(what)} is no task, plan or walk", "give one, or its name or file")
+        raise OptionError.of_value("what", what, "is no task, plan or walk", "give one, or its name or file")
     family, label = family_of(item), item.name
     if plan is None and not force:
         family, item, _ = fit_family(family, item)

@@ -41,23 +41,20 @@ class Runs(Crew, total=False):
     """A task in place of the one that a plan names."""
 
 
-def check_options(given: Mapping[str, Any], known: type[Any]) -> None:
-    """Make sure that options are known ones, each of its kind, and no number below 0.
+def check_options(given: Mapping[str, Any], kinds: Mapping[str, Any], *, signed: bool = False) -> None:
+    """Make sure that options are known ones, each of its kind, and no number below 0 unless they are `signed`.
 
     Raises:
         OptionError: Otherwise.
     """
-    kinds = {
-        name: kind for base in reversed(known.__mro__) for name, kind in getattr(base, "__annotations__", {}).items()
-    }
     for name, value in given.items():
         if name not in kinds:
             raise OptionError(name, "is no option here", f"there are {describe_choices(name, kinds)}")
-        check_kind(name, value, kinds[name])
+        check_kind(name, value, kinds[name], signed=signed)
 
 
-def check_kind(name: str, value: Any, kind: Any) -> None:
-    """Make sure that a value is of the kind that an option takes, and no number below 0.
+def check_kind(name: str, value: Any, kind: Any, *, signed: bool = False) -> None:
+    """Make sure that a value is of the kind that an option takes, and no number below 0 unless it is `signed`.
 
     Raises:
         OptionError: Otherwise.
@@ -65,16 +62,10 @@ def check_kind(name: str, value: Any, kind: Any) -> None:
     try:
         TypeAdapter(kind, config={"arbitrary_types_allowed": True}).validate_python(value, strict=True)
     except ValidationError:
-        words = kind.__name__ if isinstance(kind, type) else str(kind).replace("pathlib.", "")
-        raise OptionError(name, f"{short(value)} is not what it takes", f"it takes {words}") from None
-    if isinstance(value, int | float) and not value >= 0:
+        words = kind.__name__ if isinstance(kind, type) else str(kind).replace("pathlib.", "").replace("typing.", "")
+        raise OptionError.of_value(name, value, "is not what it takes", f"it takes {words}") from None
+    if isinstance(value, int | float) and not signed and not value >= 0:
         raise OptionError(name, f"{value} is below 0, or no number", "it must be 0 or more")
-
-
-def short(value: Any) -> str:
-    """A value in at most 60 letters."""
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def texts(name: str, given: str | Sequence[str]) -> tuple[str, ...]:
@@ -85,7 +76,7 @@ def texts(name: str, given: str | Sequence[str]) -> tuple[str, ...]:
     """
     found = (given,) if isinstance(given, str) else given
     if not isinstance(found, Sequence) or not all(isinstance(text, str) for text in found):
-        raise OptionError(name, f"{short(given)} is no text, nor several", "write it as on the command line")
+        raise OptionError.of_value(name, given, "is no text, nor several", "write it as on the command line")
     return tuple(found)
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import OptionError, PlannerError, SpecError
+from ..files import as_text
 from ..inspection.finding import Finding
 from ..inspection.open_file import inspect_file, inspect_thing, kind_of
 from ..planning.exact.costs import read_costs
@@ -20,8 +21,9 @@ from ..planning.problem.problems import plan_family
 from ..planning.problem.verdict import Verdict, check_plan
 from ..planning.result import PlanResult, Status, furthest_of
 from ..tasks import Task, load_task
+from ..tasks.library import check_task
 from ..types import Ints
-from .options import check_kind, short
+from .options import check_kind
 
 USUAL = {"seed": 0, "seconds": None, "threads": None}
 """Options that are left away where a planner has none of the kind."""
@@ -62,11 +64,7 @@ def task_of(task: Any) -> Task:
     """
     if isinstance(task, str | Path):
         return load_task(str(task))
-    if not isinstance(task, Task):
-        raise OptionError(
-            "task", f"{short(task)} is no task", "give one of `clamber.load_task`, or a task's name or file"
-        )
-    return task
+    return check_task(task, "give one of `clamber.load_task`, or a task's name or file")
 
 
 def _check_option(name: str, value: Any, parameter: Parameter | None) -> None:
@@ -99,8 +97,8 @@ def check(what: Plan | PlanResult | str | Path, task: Task | str | None = None, 
         return check_plan(opened.task if task is None or isinstance(task, str) else task, opened.plan, go_on=go_on)
     made = what.plan if isinstance(what, PlanResult) else what
     if not isinstance(made, Plan):
-        raise OptionError(
-            "what", f"{short(what)} is no plan", "give a plan, a planner's answer, or a plan's name or file"
+        raise OptionError.of_value(
+            "what", what, "is no plan", "give a plan, a planner's answer, or a plan's name or file"
         )
     if task is None:
         own: Task = what.task if isinstance(what, PlanResult) else made.rebuild_task()
@@ -126,7 +124,7 @@ def inspect(what: Any) -> Finding:
         return inspect_file(str(what))
     finding = inspect_thing(what)
     if finding is None:
-        raise OptionError("what", f"{short(what)} is no robot, world or task", "give one, or its name or file")
+        raise OptionError.of_value("what", what, "is no robot, world or task", "give one, or its name or file")
     return finding
 
 
@@ -160,7 +158,7 @@ def load_plan(name_or_path: str | Path, task: str | None = None) -> Plan:
     Raises:
         ClamberError: If it cannot be read.
     """
-    return open_plan(name_or_path, task).plan
+    return open_plan(as_text(name_or_path), task).plan
 
 
 def answer(

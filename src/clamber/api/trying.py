@@ -49,9 +49,9 @@ def trials(
         PlannerError: If there is no plan that can be carried out.
         ClamberError: If something cannot be read, or cannot be as asked for.
     """
-    check_options(options, Runs)
-    for name, value in (("n", n), ("seed", seed)):
-        check_kind(name, value, int)
+    check_options(options, Runs.__annotations__)
+    check_kind("n", n, int)
+    check_kind("seed", seed, int)
     seeds = range(seed, seed + n)
     are_held_out(seeds)
     work = work_of(what, options.get("task"), texts("plant", plant), force=options.get("force", False))
@@ -101,13 +101,10 @@ def validate(
         ClamberError: If the plan cannot be read or carried out.
     """
     crew: Crew = {"workers": workers}
-    check_options(crew, Crew)
-    for name, value, kind in (
-        ("n", n, int),
-        ("lessons", lessons, int),
-        ("seed", seed, int),
-        ("seconds", seconds, float),
-    ):
-        check_kind(name, value, kind)
+    check_options(crew, Crew.__annotations__)
+    check_kind("n", n, int)
+    check_kind("lessons", lessons, int)
+    check_kind("seed", seed, int)
+    check_kind("seconds", seconds, float)
     work, widths = work_of(plan, task, force=True), texts("noise", noise)
     return _validate(work, widths, executor_for(crew), range(seed, seed + n), lessons=lessons, seconds=float(seconds))

@@ -12,7 +12,7 @@ from ..trials.dynamics import CarriedOut
 from ..viewing.alone import alone_of
 from ..viewing.browser.app import LOOPBACK, App
 from ..viewing.browser.viewer_content import ViewerContent, alone_exhibit, exhibit_of, open_exhibit, run_exhibit
-from .options import check_kind, short
+from .options import check_kind
 
 
 def view(*what: Any, task: str | None = None, port: int = 0, expose: str | None = None, browser: bool = True) -> App:
@@ -66,7 +66,6 @@ def exhibit_for(what: Sequence[Any], task: str | None = None) -> ViewerContent:
         return exhibit_of(one)
     alone = alone_of(one)
     if alone is None:
-        raise OptionError(
-            "what", f"{short(one)} cannot be shown", "give a robot, a world, a task, a plan, a walk or a run"
-        )
+        allowed = "give a robot, a world, a task, a plan, a walk or a run"
+        raise OptionError.of_value("what", one, "cannot be shown", allowed)
     return alone_exhibit(alone)

@@ -111,7 +111,7 @@ def _print_verdict(console: Console, verdict: "Verdict", *, every_step: bool) ->
     else:
         action = first.action.title
         console.print(
-            f"VIOLATED at step {first.step} of {verdict.length} ({action}): {_why(verdict, first)}", style="bold red"
+            f"VIOLATED at step {first.step} of {verdict.length} ({action}): {verdict.why(first)}", style="bold red"
         )
     for note in verdict.notes:
         console.print(f"note: {note}")
@@ -134,15 +134,6 @@ def _print_verdict(console: Console, verdict: "Verdict", *, every_step: bool) ->
         where = f"; it differs at step {', '.join(differs)}" if differs else ""
         console.print()
         console.print(f"the rule 'nearest' takes the printed peg in {agree[0]} of {agree[1]} grabs{where}")
-
-
-def _why(verdict: "Verdict", first: "StepVerdict") -> str:
-    """What a violated check is short of, in the units of the task."""
-    check = next((check for check in verdict.checks if check.name == first.check), None)
-    margin = None if check is None else first.margins[check.name]
-    if check is None or margin is None:
-        return first.reason or "it is not allowed"
-    return f"{check.name} is short by {verdict.units.signed(-margin, check.unit).removeprefix('+')} ({check.meaning})"
 
 
 def _differs(row: "StepVerdict") -> bool:

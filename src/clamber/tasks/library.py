@@ -1,9 +1,10 @@
 """Tasks by name or path: a task file names its robot and its board, and the robot's family builds the whole."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, Protocol, runtime_checkable
 
+from ..errors import OptionError
 from ..family import Family, families
 from ..files import Document, check_schema, data_names, find_data, read_toml
 from ..types import Json
@@ -90,12 +91,31 @@ def load_task(name_or_path: str, overrides: Sequence[str] = ()) -> Task:
     return _overridden(merged, rest, merged.data["labels"]["robot"])
 
 
+def name_to_type(task: Task, under: Callable[[Any], Task] = lambda task: task) -> str:
+    """The name by which commands take a shipped task that `under` has changed since; "TASK" where only its user knows its file."""
+    known = load_task(task.name) if task.name in task_names() else None
+    return task.name if isinstance(known, type(task)) and under(known).hashes == task.hashes else "TASK"
+
+
+def check_task(task: Any, allowed: str = "give one of `clamber.load_task`") -> Task:
+    """The task, if it is one.
+
+    Raises:
+        OptionError: Otherwise.
+    """
+    if not isinstance(task, Task):
+        raise OptionError.of_value("task", task, "is no task", allowed)
+    return task
+
+
 def change_task(task: Task, overrides: Sequence[str]) -> Task:
     """A task with values of it, its robot or its world overridden, such as "rules.reach_offset=1cm".
 
     Raises:
+        OptionError: If it is no task.
         SpecError: If an override says something that cannot be used.
     """
+    check_task(task)
     return _overridden(Document(f"task '{task.name}'", task.document), overrides, f"robot of task '{task.name}'")
 
 

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from ..extensions import blamed, load_outside, outside
 from ..family import Family, families, known_families, named_family
-from ..files import Document, data_names, find_data, is_path, read_toml, unknown_name
+from ..files import Document, as_text, data_names, find_data, is_path, read_toml, unknown_name
 
 
 class Robot(Protocol):
@@ -43,7 +43,7 @@ def read_robot(name_or_path: str, folder: Path | None = None) -> Document:
         FileError: If the file cannot be read.
         ExtensionError: If another package's robot cannot be loaded.
     """
-    names = robot_names()
+    name_or_path, names = as_text(name_or_path), robot_names()
     if is_path(name_or_path) or name_or_path in names:
         path, label = find_data("robot", name_or_path, shipped("robots"), folder)
         return _whole(read_toml(path, label))

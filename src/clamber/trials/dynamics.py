@@ -13,7 +13,9 @@ from ..execution.log_scene import LoggedScene
 from ..execution.log_stream import LogGap, WantedLog
 from ..execution.run_report import RunReport
 from ..family import NotOfFamilyError
+from ..interrupts import passed_on
 from ..kernel_cache import Use
+from ..planning.planners import plan_task
 from ..planning.problem.plan import Plan
 from ..planning.problem.verdict import check_plan
 from ..planning.progress import Listener
@@ -21,6 +23,7 @@ from ..planning.progress import Listener
 if TYPE_CHECKING:  # loads what only commands need
     from rich.console import Console
 
+    from ..planning.result import PlanResult
     from ..tasks.imported import PlaneClimb
     from .trial_runs import Setup
 
@@ -89,6 +92,14 @@ class RunEvents:
     """What takes long and was not asked for begins, such as another plan on the way; in words."""
     step: Callable[[str, float | None], None] = _ignore
     """The action or step that begins, in words, and the share that is done where it is known [-]; may end the run by an error."""
+
+
+def search_to_run(
+    task: Any, planner: str, asked: Conditions, events: RunEvents, seed: int, **options: Any
+) -> PlanResult:
+    """Search for a plan to carry out; Ctrl-C ends the command, as planners answer with what they have, which would be carried out."""
+    with passed_on():
+        return plan_task(task, planner, seed=seed, seconds=asked.plan_seconds, progress=events.search, **options)
 
 
 @runtime_checkable
@@ -180,8 +191,9 @@ class Dynamics(ABC):
         Raises:
             ClamberError: If an action is none that the task's robot and world have.
         """
-        violated = check_plan(task, plan, label=label).first_violation
-        return None if violated is None else f"step {violated.step}: {violated.reason}"
+        verdict = check_plan(task, plan, label=label)
+        violated = verdict.first_violation
+        return None if violated is None else f"step {violated.step}: {verdict.why(violated)}"
 
     @abstractmethod
     def run(

@@ -14,12 +14,11 @@ from ..execution.run_report import RunReport
 from ..family import NotOfFamilyError, family_of
 from ..jobs import read_result
 from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key
-from ..planning.planners import plan_task
 from ..planning.problem.plan import Plan
 from ..planning.problem.verdict import check_plan
 from ..tasks import Task, task_from_document
 from ..types import Json
-from .dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from .dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest, search_to_run
 from .held_out import seeds_in_words
 from .noise import NoiseKind, read_widths
 from .trial_runs import Setup, Trials, wilson_interval
@@ -236,7 +235,7 @@ class PlainDynamics(Dynamics):
         return plan
 
     def _found(self, task: Any, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-        result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+        result = search_to_run(task, asked.planner, asked, events, seed)
         if not result.has_plan:
             raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
         return result.plan

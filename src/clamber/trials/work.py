@@ -10,7 +10,8 @@ from ..planning.planners import find_planner
 from ..planning.problem.plan import Plan
 from ..planning.problem.plan_source import check_name, is_plan, open_plan
 from ..planning.problem.verdict import ToRun
-from ..tasks import Task, load_task, task_names
+from ..tasks import Task, load_task
+from ..tasks.library import name_to_type
 from .dynamics import Conditions, Dynamics
 
 PLANT: Final = "plant."
@@ -91,13 +92,7 @@ def to_run(task: Task, plan: Plan, label: str = "plan") -> ToRun | None:
     if (unfit := dynamics.unfit(task)) is not None:
         return ToRun(False, unfit, None)
     why = dynamics.objection(task, plan, label)
-    return ToRun(why is None, why, None if why is None else f"clamber plan {_as_typed(task)} --to-run")
-
-
-def _as_typed(task: Task) -> str:
-    """The name of a task that comes with Clamber as it is here; of others only they know their file."""
-    known = task.name in task_names() and load_task(task.name).hashes == task.hashes
-    return task.name if known else "TASK"
+    return ToRun(why is None, why, None if why is None else f"clamber plan {name_to_type(task)} --to-run")
 
 
 def open_work(what: str, task: str | None = None, settings: Sequence[str] = (), *, force: bool = False) -> Work:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Final, TypeAlias
 
 from ...execution.fault import check_faults
 from ...json_form import INLINE
-from ...planning.planners import plan_task
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
+from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest, search_to_run
 from .planning import Walk
 from .planning.task import WalkerTask
 from .trials.noise import WalkNoise, named_walk_noise, read_walk_noise
@@ -137,7 +136,7 @@ def _planned(
 
 
 def _found(task: WalkerTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-    result = plan_task(task, asked.planner, seed=seed, seconds=asked.plan_seconds, progress=events.search)
+    result = search_to_run(task, asked.planner, asked, events, seed)
     if not result.has_plan:
         raise NoPlanError(asked.planner, task.name, f"that can bear to be walked: {result.reason}")
     return result.plan

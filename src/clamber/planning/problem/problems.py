@@ -15,6 +15,7 @@ from ...json_form import Count, Jsonable, in_json
 from ...shown_units import SI, ShownUnits, units_of
 from ...specs import spec
 from ...tasks import Task
+from ...tasks.library import check_task
 from ...types import Ints
 from .body_pose import PLANE, PoseAxis, PoseLattice, axis_names, plane_lattice
 from .check import TICKS, Check
@@ -301,8 +302,11 @@ def pose_problem(task: Task, *, threads: int | None = None, filters: bool = True
         task: The task.
         threads: Threads for batches; None for one a core.
         filters: Whether the inventory's filters are applied.
+
+    Raises:
+        OptionError: If it is no task.
     """
-    return family_of(task).plans.posed(task, threads, filters)
+    return family_of(check_task(task)).plans.posed(task, threads, filters)
 
 
 def goal_step(problem: CompiledProblem, codes: Ints, stances: Records) -> int:

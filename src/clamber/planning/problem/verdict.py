@@ -228,6 +228,14 @@ class Verdict(Jsonable):
         asked = [row for row in self.per_step if row.nearest is not None]
         return (sum(row.nearest == row.hold for row in asked), len(asked)) if asked else None
 
+    def why(self, row: StepVerdict) -> str:
+        """What a violated check is short of, in the units of the task."""
+        check = next((check for check in self.checks if check.name == row.check), None)
+        margin = None if check is None else row.margins[check.name]
+        if check is None or margin is None:
+            return row.reason or "it is not allowed"
+        return f"{check.name} is short by {self.units.signed(-margin, check.unit).removeprefix('+')} ({check.meaning})"
+
     @in_json(key="first_violation", after="goals_met")
     def violation(self) -> Violation | None:
         """The first step that violates a hard check."""

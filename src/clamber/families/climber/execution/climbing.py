@@ -49,7 +49,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         self, climber: TracedClimber, course: ExecutablePlan, *, replan: Replan | None = None, force: bool = False
     ) -> None:
         if course.objections and not force:
-            raise course.objections[0]
+            raise course.refusal()
         self.climber, self.replan = climber, replan
         self._actor = Actor(climber, course)
         self._groups = iter(course.groups())

@@ -10,7 +10,8 @@ from ....errors import ClamberError
 from ....planning.problem.plan import Plan
 from ....planning.problem.problem import Replay
 from ....planning.problem.problems import PlannedAction, plan_family
-from ....tasks.library import change_task
+from ....shown_units import units_of
+from ....tasks.library import change_task, name_to_type
 from ....types import Floats, Ints, Records
 from ..planning.task import LimbedTask
 from ..statics.elbows import open_branches
@@ -29,9 +30,9 @@ WEAKER: Final = 3.0
 class PlanRefusedError(ClamberError):
     """A plan is not carried out: names the plan, the step and the reason."""
 
-    def __init__(self, plan: str, step: int | None, reason: str) -> None:
-        super().__init__(plan, step, reason)
-        self.plan, self.step, self.reason = plan, step, reason
+    def __init__(self, plan: str, step: int | None, reason: str, task: str = "TASK") -> None:
+        super().__init__(plan, step, reason, task)
+        self.plan, self.step, self.reason, self.task = plan, step, reason, task
 
     @property
     def in_words(self) -> str:
@@ -41,8 +42,8 @@ class PlanRefusedError(ClamberError):
     def __str__(self) -> str:
         where = ": " if self.step is None else ", "
         return (
-            f"{self.plan}{where}{self.in_words}; nothing has moved (`clamber plan TASK --to-run` makes a plan that "
-            "can be carried out; --force carries this one out all the same)"
+            f"{self.plan}{where}{self.in_words}; nothing has moved (`clamber plan {self.task} --to-run` makes a plan "
+            "that can be carried out; --force carries this one out all the same)"
         )
 
 
@@ -60,6 +61,11 @@ class ExecutablePlan:
     """What counts against each stance: hooks and motors that lack newtons, links that touch holds, shape (n + 1,); see `elbows`."""
     objections: tuple[PlanRefusedError, ...] = ()
     """What speaks against it, the first step first."""
+
+    def refusal(self) -> PlanRefusedError:
+        """The first objection, with the name of the task as commands take it."""
+        first = self.objections[0]
+        return PlanRefusedError(first.plan, first.step, first.reason, name_to_type(self.task, climbable))
 
     def pose(self, step: int) -> Floats:
         """Body x, y [m], theta [rad] after a step, shape (3,)."""
@@ -179,13 +185,12 @@ def _objections(task: LimbedTask, plan: Plan, replay: Replay, label: str) -> tup
         for part in PARTS
         if plan.hashes.get(part) != task.hashes[part]
     ]
-    family = plan_family(task)
+    family, units = plan_family(task), units_of(task.document)
     for step, reason in enumerate(replay.reasons, 1):
         if reason >= 0:
             check = family.checks[int(reason)]
-            margin = float(replay.margins[step - 1, int(reason)])
-            unit = "" if check.unit == "1" else f" {check.unit}"
-            words = f"{plan.actions[step - 1].title}: {check.name} is {margin:.4g}{unit} ({check.meaning})"
+            margin = units.signed(float(replay.margins[step - 1, int(reason)]), check.unit)
+            words = f"{plan.actions[step - 1].title}: {check.name} is {margin} ({check.meaning})"
             objections.append(PlanRefusedError(label, step, words))
     return tuple(objections)
 

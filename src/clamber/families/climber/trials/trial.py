@@ -237,7 +237,7 @@ def with_plan(
         raise no_plan(setup.planner, setup.task)
     course = lay_course(setup.task, plan, label)
     if course.objections and not setup.force:
-        raise course.objections[0]
+        raise course.refusal()
     return replace(setup, plan=plan, planned=planned)
 
 

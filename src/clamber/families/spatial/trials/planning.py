@@ -2,15 +2,14 @@
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import Any, Final
+from typing import Final
 
 from ....errors import SpecError
 from ....planning.auto import choose
-from ....planning.planners import accepts, plan_task
+from ....planning.planners import accepts
 from ....planning.problem.plan import Plan
 from ....planning.problem.problems import pose_problem
-from ....planning.result import PlanResult
-from ....trials.dynamics import Conditions, NoPlanError, RunEvents
+from ....trials.dynamics import Conditions, NoPlanError, RunEvents, search_to_run
 from ..execution.carrying import Replan
 from ..planning.task import SpatialTask
 
@@ -45,20 +44,14 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
         for wider in widths if accepts(quick, "width") else (0,):
             with suppress(SpecError):  # the start itself has less in reserve
                 options = {"width": wider * problem.beam.width} if wider else {}
-                result = _search(careful(task, reserve), quick, asked, events, seed, **options)
+                result = search_to_run(careful(task, reserve), quick, asked, events, seed, **options)
                 if result.has_plan:
                     return result.plan
         events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
-    result = _search(task, asked.planner, asked, events, seed)
+    result = search_to_run(task, asked.planner, asked, events, seed)
     if result.has_plan:
         return result.plan
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
-
-
-def _search(
-    task: SpatialTask, planner: str, asked: Conditions, events: RunEvents, seed: int, **options: Any
-) -> PlanResult:
-    return plan_task(task, planner, seed=seed, seconds=asked.plan_seconds, progress=events.search, **options)
 
 
 def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
