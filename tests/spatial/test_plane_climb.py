@@ -67,7 +67,10 @@ def test_a_push_out_of_the_wall_is_borne_besides_the_weight() -> None:
     assert task.rules.push == pytest.approx((0.0, -0.15 * plane.robot.weight, 0.0))
 
 
-@pytest.mark.parametrize("key", ["goal.region=[['0 cm','0 cm'],['50 cm','0 cm'],['20 cm','90 cm']]"])
+CORNERS = "[['0 cm','0 cm'],['50 cm','0 cm'],['20 cm','90 cm']]"
+
+
+@pytest.mark.parametrize("key", [f"goal.region={CORNERS}", f"board.keep_out=[{CORNERS}]", "goal.holds.upper-left=48"])
 def test_what_has_no_counterpart_in_space_stays_with_climbers(key: str) -> None:
     plane = load_task(GECKO, [key])
     family, item, note = fit_family(family_of(plane), plane)

@@ -100,7 +100,7 @@ class ClimberDynamics(Dynamics):
         robot, start, limbs = task.robot, task.start, task.robot.limbs
         boxes = all(goal.region is None and not goal.holds and goal.turns is None for goal in task.goals)
         holds = [hold for hold in task.world.holds if hold.direction is None]
-        if not (boxes and robot.grips and len(limbs) > MOST_LIMBS and holds):
+        if not (boxes and robot.grips and len(limbs) > MOST_LIMBS and holds) or task.world.keep_out:
             return None
         places = {hold.number: k for k, hold in enumerate(holds, start=1)}
         held = {limb: places[hold] for limb, hold in start.holds.items() if hold in places}

@@ -93,18 +93,15 @@ def unfit(robot: LimbedRobot) -> str | None:
     """
     weakest = min(robot.joints, key=robot.torque_limit_of)
     least = robot.torque_limit_of(weakest)
-    if least >= USUAL.firm:
-        n = len(robot.limbs)
-        few = n <= MOST_LIMBS or not robot.grips
+    if least < USUAL.firm:
         return (
-            None
-            if few
-            else f"today's control of climbers is for {MOST_LIMBS} limbs, and '{robot.name}' has {n} that grip"
+            f"today's control of climbers asks up to {USUAL.firm:g} N m of every joint, and joint {weakest.number} of "
+            f"'{robot.name}' gives {least:.3g} N m (motor.torque_limit); docs/own-robot.md says which robots climb"
         )
-    return (
-        f"today's control of climbers asks up to {USUAL.firm:g} N m of every joint, and joint {weakest.number} of "
-        f"'{robot.name}' gives {least:.3g} N m (motor.torque_limit); docs/own-robot.md says which robots climb"
-    )
+    n = len(robot.limbs)
+    if n > MOST_LIMBS and robot.grips:
+        return f"today's control of climbers is for {MOST_LIMBS} limbs, and '{robot.name}' has {n} that grip"
+    return None
 
 
 def usual_alpha(limit: str) -> float:
