@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from rich.console import Console
@@ -9,6 +10,8 @@ from rich.console import Console
 from clamber.terminal import live_line
 from clamber.terminal.live_line import LiveLine
 from clamber.terminal.worker_options import EndsLine
+
+Clamber = Callable[..., tuple[int, str, str]]
 
 
 @pytest.fixture
@@ -76,3 +79,45 @@ def test_times_have_room_on_a_narrow_terminal_and_all_goes_in_the_end() -> None:
     written = console.file.getvalue()
     assert "- a line that is too long for s" not in written and "a line that is too" in written
     assert written.rstrip().endswith("\x1b[2K")
+
+
+def test_what_is_left_of_a_count_is_told_from_its_first_on(pass_time: Callable[[float], None]) -> None:
+    console = log()
+    with LiveLine(console, quiet=False, doing="preparing a.gif") as line:
+        pass_time(20.0)
+        count = line.counting("frame")
+        for frame in range(1, 12):
+            count(frame, 20)
+            pass_time(1.0)
+    assert lines(console) == ["preparing a.gif", "frame 1 of 20, 20 s", "frame 11 of 20, 30 s, about 10 s left"]
+
+
+@pytest.mark.parametrize(
+    ("words", "first", "shown"),
+    [
+        ("calibrate --seeds 1", "preparing the fits", "fit 8 of 8"),
+        (
+            "max-setting level-walk --set way.0.distance=2cm --vary payload=5kg..40kg:2",
+            "preparing the walk",
+            "value 2 of at most 2, payload = 40 kg",
+        ),
+        ("show ladder -o start.gif", "preparing start.gif", "frame 1 of 1"),
+        ("view ladder-hand -o hand.html", "preparing hand.html", "picture 683 of 683"),
+    ],
+)
+def test_what_fits_walks_and_draws_for_long_tells_how_far_it_is(
+    words: str, first: str, shown: str, clamber: Clamber, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    told: list[str] = []
+    show = LiveLine.show
+
+    def heard(line: LiveLine, words: str, share: float | None = None, *, now: bool = False) -> None:
+        told.append(words)
+        show(line, words, share, now=now)
+
+    monkeypatch.setattr(LiveLine, "show", heard)
+    code, _, err = clamber(*words.split())
+    assert code == 0 and shown in told
+    assert err.startswith(first)
+    assert clamber(*words.split(), "-q")[2] == ""

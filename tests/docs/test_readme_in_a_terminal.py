@@ -75,6 +75,22 @@ def test_what_makes_a_figure_of_the_tables(told: Told, folder: Path) -> None:
     type_all([told], 60, "utf-8", folder)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "words",
+    [
+        "calibrate",
+        "max-setting level-walk --vary payload=12kg..26kg:3",
+        "show ladder-hand -o hand.gif",
+        "show ladder-hand -o hand.mp4",
+        "view ladder-hand -o hand.html",
+        "run wall-gripper -o wall.gif",
+    ],
+)
+def test_what_fits_walks_and_draws_is_never_silent(words: str, folder: Path) -> None:
+    check(typed(words.split(), columns=80, folder=folder), 80, words)
+
+
 def test_help_stands_in_a_narrow_latin_1_terminal(folder: Path) -> None:
     for words in (["--help"], ["plan", "--help"], ["trials", "--help"], ["list"]):
         session = typed(words, columns=60, encoding="latin-1", folder=folder)

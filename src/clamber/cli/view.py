@@ -8,8 +8,9 @@ import typer
 
 from ..interrupts import answer
 from ..json_form import Count, Key
+from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
-from ..terminal.options import AsJson, Overrides, takes_options
+from ..terminal.options import AsJson, Overrides, Quiet, takes_options
 from ..terminal.output import check_writable, print_json, stderr, stdout
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ class ViewOptions:
         ),
     ] = None
     as_json: AsJson = False
+    quiet: Quiet = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,15 +82,12 @@ def view(
     The page is served from this machine to this machine alone, unless --expose says otherwise.
     """
     check_writable(words.save)
-    from ..viewing.browser.app import LOOPBACK, App, check_viser
-
-    check_viser()
-    from ..viewing.browser.viewer_content import open_exhibit
-
-    exhibit = open_exhibit(things, words.task, words.overrides or ())
     if words.save is not None:
-        _save(exhibit, words.save, as_json=words.as_json)
+        _save(things, words, words.save)
         return
+    exhibit = _opened(things, words)
+    from ..viewing.browser.app import LOOPBACK, App
+
     host = LOOPBACK if words.expose is None else words.expose
     if words.expose is not None:
         stderr().print(
@@ -105,11 +104,22 @@ def view(
         app.close()
 
 
-def _save(exhibit: "ViewerContent", path: Path, *, as_json: bool) -> None:
-    from ..viewing.browser.page import write_page
+def _opened(things: list[str], words: ViewOptions) -> "ViewerContent":
+    from ..viewing.browser.app import check_viser
 
-    size = write_page(exhibit, path)
-    if as_json:
+    check_viser()
+    from ..viewing.browser.viewer_content import open_exhibit
+
+    return open_exhibit(things, words.task, words.overrides or ())
+
+
+def _save(things: list[str], words: ViewOptions, path: Path) -> None:
+    with LiveLine(stderr(), quiet=words.quiet, doing=f"preparing {path.name}") as line:
+        exhibit = _opened(things, words)
+        from ..viewing.browser.page import write_page
+
+        size = write_page(exhibit, path, line.counting("picture"))
+    if words.as_json:
         print_json(Saved(path, exhibit.title, size))
     else:
         stdout().print(f"written to {path}", soft_wrap=True)

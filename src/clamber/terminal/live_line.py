@@ -5,6 +5,7 @@ On a terminal it is rewritten all the time, elsewhere there is a line at once an
 
 import math
 import time
+from collections.abc import Callable
 from threading import Event, Thread
 from types import TracebackType
 from typing import Final, Self
@@ -86,6 +87,10 @@ class LiveLine:
         if self._live is None and not self._quiet:
             self._tell(now=now or self._fresh)
         self._fresh = False
+
+    def counting(self, what: str) -> Callable[[int, int], None]:
+        """What shows "`what` k of n" as the k-th begins, and counts the time from the first on."""
+        return lambda k, n: self.show(f"{what} {k} of {n}", (k - 1) / n if k > 1 else None)
 
     def begin_from(self, share: float) -> None:
         """Take a share as done before the block, in none of its time."""

@@ -4,7 +4,7 @@ import tempfile
 from collections.abc import Callable, Iterator
 from io import BytesIO
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import Any, Final, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,8 @@ from .recording import Frame, Moment
 Ints = npt.NDArray[np.int_]
 Pixels = npt.NDArray[np.uint8]
 """RGB, shape (height, width, 3)."""
+Progress: TypeAlias = Callable[[int, int], None]
+"""Told each frame that is drawn, from 1, and how many there are."""
 MOST_FRAMES: Final = {".gif": 640, ".mp4": 6000}
 GIF_DPI: Final = 100
 VIDEO_DPI: Final = 140
@@ -36,6 +38,10 @@ SAMPLES: Final = 4
 """Frames the palette is made for."""
 PLACES: Final = np.array((1 << 16, 1 << 8, 1), np.uint32)
 """Of red, green and blue in a colour's number."""
+
+
+def untold(frame: int, of: int) -> None:
+    """The progress that nobody is told."""
 
 
 class Animated(Protocol[Moment]):
@@ -54,7 +60,9 @@ class Animated(Protocol[Moment]):
         """What an animation of at most so many frames shows."""
 
 
-def rasterise(picture: Animated[Moment], frames: list[Frame[Moment]], dpi: int) -> Iterator[Pixels]:
+def rasterise(
+    picture: Animated[Moment], frames: list[Frame[Moment]], dpi: int, progress: Progress = untold
+) -> Iterator[Pixels]:
     """Each frame as pixels; both sides are even, as video formats want them."""
     figure = picture.figure
     w, h = figure.get_size_inches()
@@ -65,7 +73,8 @@ def rasterise(picture: Animated[Moment], frames: list[Frame[Moment]], dpi: int) 
         artist.set_animated(True)
     canvas.draw()  # type: ignore[no-untyped-call]
     still = canvas.copy_from_bbox(figure.bbox)  # type: ignore[no-untyped-call]
-    for frame in frames:
+    for number, frame in enumerate(frames, start=1):
+        progress(number, len(frames))
         canvas.restore_region(still)  # type: ignore[no-untyped-call]
         picture.show(frame.step, frame.moment)
         for artist in picture.artists:  # again for each frame: a lifted frame passes over a standing one
@@ -105,7 +114,9 @@ def _add(chosen: Ints, colours: Ints, most: int) -> Ints:
     return chosen
 
 
-def write_gif(picture: Animated[Any], path: Path, most: int = MOST_FRAMES[".gif"]) -> None:
+def write_gif(
+    picture: Animated[Any], path: Path, progress: Progress = untold, *, most: int = MOST_FRAMES[".gif"]
+) -> None:
     """Write an animated GIF that runs for ever."""
     frames = picture.frames(most)
     some = [frames[k] for k in np.linspace(0, len(frames) - 1, SAMPLES).astype(int)]
@@ -113,7 +124,7 @@ def write_gif(picture: Animated[Any], path: Path, most: int = MOST_FRAMES[".gif"
     colours = (palette.getpalette() or [])[: 3 * COLOURS]
     before: np.ndarray[tuple[int, int], np.dtype[np.uint8]] | None = None
     images: list[Image.Image] = []
-    for pixels in rasterise(picture, frames, GIF_DPI):
+    for pixels in rasterise(picture, frames, GIF_DPI, progress):
         indexed = Image.fromarray(pixels).quantize(palette=palette, dither=Image.Dither.NONE)
         now = np.asarray(indexed)
         shown = now if before is None else np.where(now == before, np.uint8(COLOURS), now)
@@ -137,7 +148,7 @@ def write_gif(picture: Animated[Any], path: Path, most: int = MOST_FRAMES[".gif"
     write_atomically(path, content.getvalue())
 
 
-def write_mp4(picture: Animated[Any], path: Path) -> None:
+def write_mp4(picture: Animated[Any], path: Path, progress: Progress = untold) -> None:
     """Write H.264 video, through the ffmpeg that the extra `video` brings.
 
     Raises:
@@ -151,7 +162,7 @@ def write_mp4(picture: Animated[Any], path: Path) -> None:
     with tempfile.TemporaryDirectory() as folder:
         target = Path(folder) / "plan.mp4"
         writer = None
-        for frame, pixels in zip(frames, rasterise(picture, frames, VIDEO_DPI), strict=True):
+        for frame, pixels in zip(frames, rasterise(picture, frames, VIDEO_DPI, progress), strict=True):
             if writer is None:
                 size = pixels.shape[1], pixels.shape[0]
                 writer = imageio_ffmpeg.write_frames(
@@ -171,5 +182,5 @@ def write_mp4(picture: Animated[Any], path: Path) -> None:
         write_atomically(path, target.read_bytes())
 
 
-WRITERS: Final[dict[str, Callable[[Animated[Any], Path], None]]] = {".gif": write_gif, ".mp4": write_mp4}
+WRITERS: Final[dict[str, Callable[[Animated[Any], Path, Progress], None]]] = {".gif": write_gif, ".mp4": write_mp4}
 """Suffix -> what writes it."""

@@ -18,7 +18,7 @@ from ..tasks import Task
 from ..trials.dynamics import CarriedOut
 from ..types import Floats
 from .alone import DrawsAlone
-from .animation import WRITERS, Animated
+from .animation import WRITERS, Animated, Progress, untold
 from .output import CANVASES, StepError, check_suffix, save_figure
 from .recording import View
 from .scene import Bounds
@@ -146,7 +146,9 @@ def draw_route(task: Task, plan: Replay | Plan, path: str | Path, camera: str | 
         save_figure(pictures_of(task, camera).route(task, carried_out(task, plan)), path)
 
 
-def animate(task: Task, plan: Replay | Plan, path: str | Path, camera: str | None = None) -> None:
+def animate(
+    task: Task, plan: Replay | Plan, path: str | Path, camera: str | None = None, progress: Progress = untold
+) -> None:
     """Write a plan, carried out, as an animation (.gif, .html, .mp4); `camera` as `pictures_of` has it, a page's is moved by its reader.
 
     Raises:
@@ -160,10 +162,11 @@ def animate(task: Task, plan: Replay | Plan, path: str | Path, camera: str | Non
         from .browser.page import write_page  # loads the viewer
         from .browser.viewer_content import exhibit_of
 
-        write_page(exhibit_of(task, plan), Path(path))
+        write_page(exhibit_of(task, plan), Path(path), progress)
         return
     with styled():
-        WRITERS[suffix](Picture(pictures_of(task, camera).view(task, carried_out(task, plan))), Path(path))
+        picture = Picture(pictures_of(task, camera).view(task, carried_out(task, plan)))
+        WRITERS[suffix](picture, Path(path), progress)
 
 
 def check_run_suffix(path: str | Path) -> str:
@@ -175,7 +178,7 @@ def check_run_suffix(path: str | Path) -> str:
     return check_suffix(path, (*LOGS, *ANIMATIONS, *CANVASES))
 
 
-def draw_run(run: CarriedOut, path: str | Path) -> None:
+def draw_run(run: CarriedOut, path: str | Path, progress: Progress = untold) -> None:
     """Write what was carried out as the file's suffix says.
 
     Raises:
@@ -194,16 +197,16 @@ def draw_run(run: CarriedOut, path: str | Path) -> None:
         from .browser.page import write_page
         from .browser.viewer_content import run_exhibit  # loads the viewer
 
-        write_page(run_exhibit(run), file)
+        write_page(run_exhibit(run), file, progress)
         return
     draw = pictures_of(run.work).run
     if draw is None:
         raise NotOfFamilyError(family_of(run.work).title, "pictures of runs")
     with styled():
-        write_run_picture(draw(run), file)
+        write_run_picture(draw(run), file, progress)
 
 
-def write_run_picture(picture: RunPicture, path: Path) -> None:
+def write_run_picture(picture: RunPicture, path: Path, progress: Progress = untold) -> None:
     """Write a figure of a run, animated or still; within `styled`.
 
     Raises:
@@ -213,6 +216,6 @@ def write_run_picture(picture: RunPicture, path: Path) -> None:
     """
     suffix = check_suffix(path, (*WRITERS, *CANVASES))
     if suffix in WRITERS:
-        WRITERS[suffix](picture, path)
+        WRITERS[suffix](picture, path, progress)
     else:
         save_figure(picture.whole(), path)

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.families.walker.planning import load_walk
-from clamber.families.walker.trials.max_setting import Tried, find_most
+from clamber.families.walker.trials.max_setting import Tried, find_most, most_tries
 from clamber.families.walker.trials.run_walk import run_walk, walk_flaws
 
 
@@ -25,6 +25,7 @@ def test_it_finds_the_last_that_is_borne_with_few_walks(n: int, data: st.DataObj
         return judged(value, int(value) <= last)
 
     found = find_most([str(k) for k in range(n)], walk)
+    assert len(found.tried) <= most_tries(n)
     assert (found.borne and found.borne.value) == (str(last) if last >= 0 else None)
     assert (found.refused and found.refused.value) == (str(last + 1) if last < n - 1 else None)
     assert len(walked) == len(set(walked)) <= 2 + math.ceil(math.log2(n))

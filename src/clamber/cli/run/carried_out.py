@@ -80,9 +80,10 @@ def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
     """Write the files of a run and print it."""
     if words.outputs:
         from ...viewing.pictures import draw_run
-    for file in words.outputs:
-        if file != words.growing:
-            draw_run(run, file)
+    with LiveLine(stderr(), quiet=words.quiet) as line:
+        for file in words.outputs:
+            if file != words.growing:
+                draw_run(run, file, line.counting(f"{file.name}: frame"))
     written = words.written(run.log_gap)
     if words.report is not None:
         from ...viewing.report.run_page import write_run_report

@@ -158,7 +158,7 @@ def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: WorkerOptions,
     if words.output is not None:
         from ...viewing.pictures import draw_run
 
-        draw_run(run, words.output)
+        draw_run(run, words.output, line.counting("frame"))
     if kept is not None and setup.trial(kept, words.store) != trial:
         line.say(f"the store's trial {seed} went otherwise: another machine or other code")
     if words.as_json:

@@ -14,6 +14,7 @@ import numpy as np
 from ...files import write_atomically
 from ...types import Floats, Json
 from .. import style
+from ..animation import Progress, untold
 from ..output import check_suffix
 from ..panel import Gauges
 from ..recording import Recording
@@ -34,7 +35,7 @@ END: Final = 0.01
 """So long before its end a recording may stand still; at its end it begins again [s]."""
 
 
-def write_page(exhibit: ViewerContent, path: Path) -> int:
+def write_page(exhibit: ViewerContent, path: Path, progress: Progress = untold) -> int:
     """Write a viewer's page with the recorded scene and the client inside; nothing is loaded from elsewhere.
 
     Returns:
@@ -50,7 +51,7 @@ def write_page(exhibit: ViewerContent, path: Path) -> int:
     with contextlib.redirect_stdout(io.StringIO()):  # its last words
         server = guarded_server(LOOPBACK, Guard(0))  # nobody is to come
         try:
-            page = _record(server, exhibit)
+            page = _record(server, exhibit, progress)
         finally:
             server.stop()
     content = page.encode()
@@ -58,7 +59,7 @@ def write_page(exhibit: ViewerContent, path: Path) -> int:
     return len(content)
 
 
-def _record(server: Any, exhibit: ViewerContent) -> str:
+def _record(server: Any, exhibit: ViewerContent, progress: Progress) -> str:
     stage = SceneView(server, exhibit.scenery)
     light_scene(server)
     stage.set_film("plan", exhibit.plan_film)
@@ -69,7 +70,8 @@ def _record(server: Any, exhibit: ViewerContent) -> str:
     times = _times(film)
     stage.show(film, 0.0)
     recorder = server.get_scene_serializer()
-    for before, now in pairwise(times.tolist()):
+    for number, (before, now) in enumerate(pairwise(times.tolist()), start=1):
+        progress(number, len(times) - 1)
         recorder.insert_sleep((now - before) / film.speed)
         stage.show(film, now)
     page: str = recorder.as_html()

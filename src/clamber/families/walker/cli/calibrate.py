@@ -4,8 +4,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ....terminal.options import AsJson
-from ....terminal.output import print_json, stdout
+from ....terminal.live_line import LiveLine
+from ....terminal.options import AsJson, Quiet
+from ....terminal.output import print_json, stderr, stdout
 from ....viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ def calibrate(
     stroke: Annotated[str, typer.Option(metavar="LENGTH", help="Stroke of the actuators.")] = "250 mm",
     seeds: Annotated[int, typer.Option(min=1, help="Random starts of every family of fits.")] = 8,
     as_json: AsJson = False,
+    quiet: Quiet = False,
 ) -> None:
     """Fit a walker's unprinted sizes to what is printed of it, and list what else fits as well.
 
@@ -41,7 +43,8 @@ def calibrate(
         raise typer.BadParameter("must be on either side of 0 deg", param_hint="--least, --most")
     if published.step <= 0.0 or published.stroke <= 0.0:
         raise typer.BadParameter("must be more than 0", param_hint="--step, --stroke")
-    found = fit_families(published, range(seeds))
+    with LiveLine(stderr(), quiet=quiet, doing="preparing the fits") as line:
+        found = fit_families(published, range(seeds), progress=line.counting("fit"))
     if as_json:
         print_json(found)
         return

@@ -1,9 +1,11 @@
 """`clamber max-setting`: the highest step, the heaviest payload, the most of anything that a walk bears."""
 
-from typing import TYPE_CHECKING, Annotated
+from itertools import count
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ....terminal.live_line import LiveLine
 from ....terminal.name_completion import names_of
 from ....terminal.options import AsJson, NoiseTexts, Overrides, Quiet
 from ....terminal.output import print_json, stderr, stdout
@@ -38,9 +40,9 @@ def max_setting(
     from ....planning.axes import range_axis
     from ....trials.work import split_settings
     from ..planning import load_walk
-    from ..trials.max_setting import MaxSetting, Tried, find_most
+    from ..trials.max_setting import MaxSetting, Tried, find_most, most_tries
     from ..trials.noise import named_walk_noise, read_walk_noise
-    from ..trials.run_walk import run_walk, walk_flaws
+    from ..trials.run_walk import run_walk, step_told, walk_flaws
 
     axis = range_axis(vary)
     sizes = read_walk_noise(named_walk_noise("none"), noise or ())
@@ -50,17 +52,26 @@ def max_setting(
         chosen = load_walk(walk, for_walk)
         return chosen, walk_flaws(chosen, for_plant)
 
+    tries, most = count(1), most_tries(len(axis.values))
+
     def tried(value: str) -> Tried:
-        if not quiet:
-            stderr().print(f"{axis.key} = {value} ...", style="dim")
+        number = next(tries)
+        about = f"value {number} of at most {most}, {axis.key} = {value}"
+        line.show(about, (number - 1) / most, now=True)
+
+        def told(*step: Any) -> None:
+            words, share = step_told(*step)
+            line.show(f"{about}: {words}", (number - 1 + (share or 0.0)) / most)
+
         try:
             chosen, flaws = opened(value)
         except SpecError as cannot:  # the least can be: so this one is too much
             return Tried.refused(value, cannot.allowed)
-        return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed))
+        return Tried.of(value, run_walk(chosen, flaws, noise=sizes, seed=seed, progress=told))
 
-    opened(axis.values[0])  # what cannot be is told before anything walks
-    found = find_most(axis.values, tried)
+    with LiveLine(stderr(), quiet=quiet, doing="preparing the walk") as line:
+        opened(axis.values[0])  # what cannot be is told before anything walks
+        found = find_most(axis.values, tried)
     if as_json:
         print_json(MaxSetting(walk, axis.key, found))
     else:

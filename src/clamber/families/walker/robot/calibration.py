@@ -254,12 +254,19 @@ class Rivals:
 
 
 def fit_families(
-    published: Published = HOSHINO_1995, seeds: Sequence[int] = range(8), families: Sequence[Family] = FAMILIES
+    published: Published = HOSHINO_1995,
+    seeds: Sequence[int] = range(8),
+    families: Sequence[Family] = FAMILIES,
+    progress: Callable[[int, int], None] = lambda fit, fits: None,
 ) -> list[Rivals]:
-    """Fits of every family from every seed."""
-    out = []
+    """Fits of every family from every seed; `progress` is told each that begins, from 1, and how many there are."""
+    out: list[Rivals] = []
     for family in families:
-        fits = sorted((fit_family(family, published, seed) for seed in seeds), key=lambda fit: fit.misfit)
+        fits: list[Fit] = []
+        for seed in seeds:
+            progress(len(out) * len(seeds) + len(fits) + 1, len(families) * len(seeds))
+            fits.append(fit_family(family, published, seed))
+        fits.sort(key=attrgetter("misfit"))
         told = fits[:1]
         for fit in fits[1:]:
             if fit.misfit <= 1.0 and all(abs(fit.sizes.radius / one.sizes.radius - 1.0) > 0.01 for one in told):

@@ -74,6 +74,11 @@ class MaxSetting:
     ]
 
 
+def most_tries(values: int) -> int:
+    """Most walks that `find_most` takes for so many values."""
+    return 2 + max(0, values - 2).bit_length()
+
+
 def find_most(values: Sequence[str], walk: Callable[[str], Tried]) -> Most:
     """The largest of values that is borne, as far as a bisection can tell: one that is borne beside one that is not.
 
