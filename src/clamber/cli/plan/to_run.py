@@ -44,6 +44,7 @@ def plan_to_run(task: Task, words: PlanOptions) -> PlanResult:
         events = RunEvents(
             search=lambda moment: line.show(progress_text(moment)),
             cut=lambda: cuts.append(None),
+            note=lambda told: None if words.quiet else line.say(told),
             step=line.show,
         )
         try:

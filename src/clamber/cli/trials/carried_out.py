@@ -139,7 +139,10 @@ def _planned(work: Work, request: TrialsRequest, words: WorkerOptions, line: Liv
     """What every trial has in common, planned if it was not; leaves with 1 where there is no plan."""
     cuts: list[None] = []
     events = RunEvents(
-        search=lambda moment: line.show(progress_text(moment)), step=line.show, cut=lambda: cuts.append(None)
+        search=lambda moment: line.show(progress_text(moment)),
+        cut=lambda: cuts.append(None),
+        note=lambda told: None if words.quiet else line.say(told),
+        step=line.show,
     )
     try:
         return work.dynamics.trials(work.item, work.plan, request, events, words.store, work.label)

@@ -22,6 +22,8 @@ from .stretch_repair import with_stretch_repaired
 
 Rehearse: TypeAlias = Callable[[LimbedTask, Plan], PlanValidation]
 """Climbs by a plan before anything moves."""
+Find: TypeAlias = Callable[[PlanningMargins, str], Plan | None]
+"""Searches for a plan with margins; told why it does so again, empty at first."""
 HARD: Final = 10.0
 """What counts against a plan that is hard, all its stances together."""
 INCAUTIOUS: Final = 10.0
@@ -30,6 +32,8 @@ EASY: Final = 3.5
 """What may count against a stance that is easy to hold: no link on a hold, no hook or motor much beyond what is wished."""
 QUICK: Final = "beam"
 """Planner in place of one that proves: what fails in rehearsal changes the task time and again."""
+UNEASY: Final = "no plan so far is easy to hold in every stance"
+"""Why it is searched again where plans were found."""
 QUIET: Final = RunEvents()
 LESSONS: Final = 10
 """Most plans of one caution that are rehearsed, each without what failed in those before."""
@@ -66,7 +70,9 @@ def plan_to_climb(
     """
     stated = {"seconds": seconds, "seed": seed, "threads": threads, "progress": events.search}
 
-    def search(task: LimbedTask, planner: str) -> PlanResult | None:
+    def search(task: LimbedTask, planner: str, why: str) -> PlanResult | None:
+        if why:
+            events.note(f"searching for a plan again, as {why}")
         options = {name: value for name, value in stated.items() if accepts(planner, name)}
         try:
             with passed_on():  # planners answer with what they have, which would be climbed
@@ -77,40 +83,42 @@ def plan_to_climb(
             events.cut()
         return result if result.has_plan else None
 
-    def found_with(margins: PlanningMargins, planner: str) -> Plan | None:
-        result = search(with_margins(task, margins), planner)
+    def found_with(margins: PlanningMargins, planner: str, why: str) -> Plan | None:
+        result = search(with_margins(task, margins), planner, why)
         if result is None:
             return None
         # the same actions, for the robot and the board as they are
         plan = Plan.of_codes(task, result.plan.codes(task), seed=seed, planner=result.plan.planner)
         return None if lay_course(task, plan).objections else plan
 
-    def repaired_with(margins: PlanningMargins, planner: str) -> Plan | None:
-        plan = found_with(margins, planner)
+    def repaired_with(margins: PlanningMargins, why: str) -> Plan | None:
+        plan = found_with(margins, quick, why)
         return None if plan is None else repaired(task, plan, margins, seconds) or plan
 
-    easy, hard = _by_ease(task, lambda margins: found_with(margins, planner))
     quick = QUICK if planner in PROVERS else planner
+    easy, hard = _by_ease(task, lambda margins, why: found_with(margins, planner, why))
     if validate_plan is None:  # the robot waits
-        steadier = (found_with(margins, quick) for margins in steady(task))
+        steadier = (found_with(margins, quick, UNEASY) for margins in steady(task))
         first = next((plan for plans in (easy, steadier, hard) for plan in plans if plan is not None), None)
     else:
-        first = _rehearsed(task, easy, hard, lambda margins: repaired_with(margins, quick), validate_plan)
+        first = _rehearsed(task, easy, hard, repaired_with, validate_plan)
     if first is not None:
         return first
-    result = search(task, planner)
+    result = search(task, planner, "none that keeps anything in reserve can be carried out")
     return None if result is None else result.plan
 
 
-def _by_ease(task: LimbedTask, find: Callable[[PlanningMargins], Plan | None]) -> tuple[list[Plan], list[Plan]]:
+def _by_ease(task: LimbedTask, find: Find) -> tuple[list[Plan], list[Plan]]:
     """Plans of falling caution until one is easy in every stance, the easiest first: where one is nearly so, and where all are hard."""
     found: list[tuple[float, Plan]] = []
     seen: set[bytes] = set()
-    least = math.inf
+    least, why = math.inf, ""
     for rank, margins in enumerate(PLANNING_MARGINS):
-        plan = find(margins)
+        plan = find(margins, why)
         if plan is None:
+            why = "none that keeps so much in reserve can be carried out"
             continue
+        why = UNEASY
         codes = plan.codes(task).tobytes()
         course = lay_course(task, plan)
         if codes in seen:
@@ -129,7 +137,7 @@ def _rehearsed(
     task: LimbedTask,
     easy: list[Plan],
     hard: list[Plan],
-    find: Callable[[PlanningMargins], Plan | None],
+    find: Find,
     validate_plan: Rehearse,
 ) -> Plan | None:
     """The first plan whose rehearsal is flawless, or the one that did best, the first of equals."""
@@ -146,7 +154,7 @@ def _rehearsed(
         if tried(plan).flawless:
             return plan
     for margins in steady(task):
-        taught = _taught(task, margins, find, tried)
+        taught = _taught(task, margins, find, tried, UNEASY if best is None else "no rehearsal was without a failure")
         if taught is not None:
             return taught
     for plan in hard:
@@ -158,11 +166,12 @@ def _rehearsed(
 def _taught(
     task: LimbedTask,
     margins: PlanningMargins,
-    find: Callable[[PlanningMargins], Plan | None],
+    find: Find,
     tried: Callable[[Plan], PlanValidation],
+    why: str,
 ) -> Plan | None:
     """A plan whose rehearsal is flawless: the grab that failed in the rehearsal before is made where it is steadier, or done without."""
-    plan = find(margins)
+    plan = find(margins, why)
     for _ in range(LESSONS):
         if plan is None:
             return None
@@ -177,7 +186,7 @@ def _taught(
             plan = Plan.of_codes(task, made, seed=plan.seed, planner=plan.planner)
             continue
         margins = without(margins, plan, done.failed)
-        plan = find(margins)
+        plan = find(margins, f"the rehearsal failed at step {done.failed}, {plan.actions[done.failed - 1].title}")
     return None
 
 
