@@ -12,6 +12,7 @@ from jsonschema import Draft202012Validator
 from clamber.cli.printed.library import schema_of
 from clamber.family import family_of
 from clamber.tasks import load_task, task_names
+from clamber.trials.work import open_work
 from tiers import first_fast
 
 Run: TypeAlias = Callable[..., tuple[int, str, str]]
@@ -118,6 +119,14 @@ def test_three_weak_limbs_are_refused_before_anything_is_searched_for(clamber: R
         code, out, err = clamber(*words)
         assert (code, out) == (1, "")
         assert "gives 5 N m" in err and "nothing has moved" in err
+
+
+def test_that_climbs_of_a_robot_are_not_tried_is_said_before_it_is_planned() -> None:
+    note = open_work("ladder", settings=("weight=45 N",)).note
+    assert note is not None
+    assert note.startswith("'libra' is none of the robots with which climbs are tried (libra, libra-grippers, as they ")
+    assert note.endswith("docs/own-robot.md says which robots do")
+    assert all(open_work(tried).note is None for tried in ("ladder", "gap", "wall-gripper", "patch-walk", "slope-walk"))
 
 
 def test_stronger_motors_are_not_refused(clamber: Run, tmp_path: Path) -> None:

@@ -175,6 +175,10 @@ class Dynamics(ABC):
         """What speaks against carrying out any plan of a task, whatever it is; None where nothing is known."""
         return None
 
+    def untried(self, task: Any) -> str | None:
+        """What is said before a task is planned whose robot nobody has tried; None where nothing is."""
+        return None
+
     def in_plane(self, task: Any) -> PlaneClimb | None:
         """A task as a family in space takes it that carries it out in place of this one; None: none can."""
         return None

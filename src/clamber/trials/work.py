@@ -131,11 +131,12 @@ def open_work(what: str, task: str | None = None, settings: Sequence[str] = (), 
 
 
 def fit_family(family: Family, task: Task) -> tuple[Family, Task, str | None]:
-    """The family that carries a task out, the task as it has it, and, where that is not its own, why."""
-    unfit = None if family.dynamics is None else family.dynamics.unfit(task)
-    climb = None if unfit is None or family.dynamics is None else family.dynamics.in_plane(task)
+    """The family that carries a task out, the task as it has it, and why that is not its own, or that its robot is untried."""
+    dynamics = family.dynamics
+    unfit = None if dynamics is None else dynamics.unfit(task)
+    climb = None if unfit is None or dynamics is None else dynamics.in_plane(task)
     for other in families():
         stated = None if climb is None or other.dynamics is None else other.dynamics.of_plane(climb)
         if stated is not None:
             return other, stated, f"{unfit}; it is planned and carried out as a {other.title}"
-    return family, task, None
+    return family, task, None if dynamics is None or unfit is not None else dynamics.untried(task)

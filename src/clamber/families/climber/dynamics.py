@@ -14,10 +14,12 @@ from ...json_form import INLINE
 from ...planning.problem.plan import Plan
 from ...planning.problem.problems import plan_family
 from ...tasks.imported import PlaneClimb
+from ...tasks.robots import load_robot, robot_names
 from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest
 from .execution.body_gains import MOST_LIMBS, unfit
 from .execution.executable_plan import climbable, objections_to
 from .planning.task import LimbedTask
+from .robot.robot import LimbedRobot
 from .sim.climber_model import boxed_climber
 from .trajectories import climb_stances
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
@@ -91,6 +93,17 @@ class ClimberDynamics(Dynamics):
     def unfit(self, task: LimbedTask) -> str | None:
         """Motors weaker than control asks for, or limbs that it does not know."""
         return unfit(task.robot)
+
+    def untried(self, task: LimbedTask) -> str | None:
+        """Robots other than those that come with Clamber and are fit for this control: it is tried with them."""
+        shipped = map(load_robot, robot_names(LimbedRobot.family))
+        tried = [robot for robot in shipped if isinstance(robot, LimbedRobot) and unfit(robot) is None]
+        if task.robot in tried:
+            return None
+        return (
+            f"'{task.robot.name}' is none of the robots with which climbs are tried ({', '.join(r.name for r in tried)}, as they come), "
+            "so that it may not climb; docs/own-robot.md says which robots do"
+        )
 
     def in_plane(self, task: LimbedTask) -> PlaneClimb | None:
         """That of limbs that grip, four or more, so that one may swing while the others hold the robot to its wall.
