@@ -148,9 +148,8 @@ def parse_toml(text: str) -> Json:
 
 
 _TO_ROBOT: Final = "`clamber new robot --from {path} -o {stem}.toml` makes a robot file of it"
-_TO_BOARD: Final = (
-    "worlds are holds or level ground: `clamber new board --csv holds.csv` makes a board of a table of holds"
-)
+_TO_WORLD: Final = "`clamber new world --mesh {path} -o {stem}.toml` makes a world in space of it"
+_TO_MESH: Final = "`clamber new world --mesh` makes a world in space of an STL, OBJ or PLY file, so convert it first"
 _TO_TOML: Final = "Clamber reads TOML: `clamber new robot`, `new board` and `new task` write files to start from"
 OTHER_FILES: Final = {
     ".urdf": ("a URDF robot model", _TO_ROBOT),
@@ -158,7 +157,8 @@ OTHER_FILES: Final = {
     ".xml": ("a robot model (MJCF or URDF)", _TO_ROBOT),
     ".xacro": ("a xacro macro file", "`xacro {path} -o {stem}.urdf` makes a URDF of it, which `clamber new robot --from` takes"),
     ".sdf": ("an SDF model", "Clamber reads URDF and MJCF (`clamber new robot --from`), so convert it first"),
-    **dict.fromkeys((".stl", ".obj", ".dae", ".ply", ".glb", ".gltf", ".step", ".stp"), ("a mesh", _TO_BOARD)),
+    **dict.fromkeys((".stl", ".obj", ".ply"), ("a mesh", _TO_WORLD)),
+    **dict.fromkeys((".dae", ".glb", ".gltf", ".step", ".stp"), ("a mesh", _TO_MESH)),
     **dict.fromkeys((".yaml", ".yml"), ("YAML", _TO_TOML)),
     ".mcap": ("a log of a run", "`clamber view {path}` plays it, `clamber export {path}` writes it for other programs"),
 }  # fmt: skip

@@ -69,7 +69,8 @@ def test_options_of_plans_are_refused(clamber: Clamber, options: tuple[str, ...]
             "quad.urdf: is a URDF robot model; `clamber new robot --from quad.urdf -o quad.toml`",
         ),
         ("quad.xml", "<mujoco/>", "quad.xml: is a robot model (MJCF or URDF); `clamber new robot --from quad.xml"),
-        ("part.stl", "solid", "part.stl: is a mesh; worlds are holds or level ground"),
+        ("part.stl", "solid", "part.stl: is a mesh; `clamber new world --mesh part.stl -o part.toml` makes a world in"),
+        ("part.glb", "glTF", "makes a world in space of an STL, OBJ or PLY file, so convert it first"),
         ("robots/mine.toml", "", "robots: is a folder; name a file in it, such as mine.toml"),
     ],
 )
