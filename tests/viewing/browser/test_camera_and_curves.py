@@ -2,6 +2,7 @@
 
 import io
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,12 +11,15 @@ from page_visits import Visit, wait_for
 from PIL import Image
 
 import clamber
+from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
+from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.plan_source import open_plan
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.camera_panel import preset
 from clamber.viewing.browser.curves import Curves
 from clamber.viewing.browser.recording import encode, file_name, video_times
 from clamber.viewing.browser.solids import Camera
-from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of
+from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of, run_exhibit
 
 Serve = Callable[..., App]
 Open = Callable[[str], Visit]
@@ -39,10 +43,20 @@ def planned(name: str) -> ViewerContent:
     return exhibit_of(task, found.plan)
 
 
-@pytest.mark.parametrize("name", SHORT)
-def test_all_that_moves_is_told_in_one_way(name: str, serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:
+def ran() -> ViewerContent:
+    """A plan and its run, together."""
+    task = climbing_task(clamber.load_task("ladder"))
+    codes = open_plan("ladder-hand").plan.codes(task)[:3]
+    return run_exhibit(run_plan(task, Plan.of_codes(task, codes, planner="hand"), climbing_flaws(task, ())))
+
+
+@pytest.mark.parametrize("shown", [*(partial(planned, name) for name in SHORT), ran], ids=[*SHORT, "a run"])
+def test_all_that_moves_is_told_in_one_way(
+    shown: Callable[[], ViewerContent], serve: Serve, monkeypatch: pytest.MonkeyPatch
+) -> None:
     # the page draws a node's own pose in its next picture, and a batch's once React has drawn it: mixed, limbs came off bodies
-    app = serve(planned(name))
+    app = serve(shown())
+    assert set(app.stage.films) == ({"plan", "run"} if shown is ran else {"plan"})
     told: list[str] = []
     server: Any = app.server._websock_server
     queue = server.queue_message
