@@ -1,7 +1,7 @@
 """A plan of a robot in space as what is carried out in one go: motions of the body over its holds, and limbs that take other holds."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Self, TypeAlias
 
@@ -15,6 +15,7 @@ from ..control.believed_tree import flat
 from ..planning.records import HEIGHT, PITCH, ROLL
 from ..planning.swing_loads import SwingLoads
 from ..planning.task import SpatialTask
+from .centred_loads import LoadCentre
 from .plant import Pose
 
 
@@ -107,15 +108,18 @@ class Course:
             ClamberError: If an action is none of the task's.
         """
         replay: Replay = plan_family(task).problem(task).replay(plan.codes(task, label), go_on=True)
-        standings = [_standing(task, stance) for stance in replay.stances]
+        centre = LoadCentre(task.robot, task.world)
+        standings = [_centred(_standing(task, stance), centre) for stance in replay.stances]
         loads = SwingLoads(task)
         motions: list[Motion] = []
         for k, (before, after) in enumerate(pairwise(standings)):
             moved = np.flatnonzero(before.holds != after.holds)
             if moved.size:
                 limb = int(moved[0])
-                shared = loads.wrenches(replay.stances[k], limb)
-                shared = np.where(np.isfinite(shared), shared, before.loads)
+                shared, bearing = loads.wrenches(replay.stances[k], limb), before.holds.copy()
+                bearing[limb] = -1
+                swinging = np.isfinite(shared).all()
+                shared = centre(before.pose, before.joints, bearing, shared) if swinging else before.loads
                 motions.append(Regrab(k + 1, limb, int(after.holds[limb]), before, after, shared))
             elif motions and isinstance(last := motions[-1], BodyMotion) and _straight_on(last.way, after):
                 motions[-1] = BodyMotion(last.first, (*last.way, after))
@@ -130,6 +134,12 @@ def grabs(task: SpatialTask, plan: Plan) -> list[tuple[int, int]]:
     names = task.robot.chains.limb_names
     held = [(limb, int(chosen[limb])) for limb in range(len(names)) if chosen[limb] >= 0]
     return held + [(names.index(str(one.limb)), one.hold - 1) for one in plan.actions if one.hold]
+
+
+def _centred(standing: Standing, centre: LoadCentre) -> Standing:
+    """A stance with the loads farthest from all limits."""
+    loads = centre(standing.pose, standing.joints, standing.holds, standing.loads)
+    return replace(standing, loads=loads)
 
 
 def _standing(task: SpatialTask, stance: np.void) -> Standing:

@@ -19,6 +19,7 @@ from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .belief import Belief
+from .centred_loads import contact_rows
 from .course import Standing
 from .plant import SpatialPlant, SpatialSensed
 from .sensor_watch import Guard, SensorWatch
@@ -180,22 +181,9 @@ class LimbedBody:
         self.relax(limb)
         self._open[limb], self._sought[limb] = 0, math.nan
         aims, dynamics = self.law.aims, self.law.dynamics
-        contact, patch = self.robot.contacts[limb], self.world.holds[hold]
-        normal = self.world.normals[hold]
-        x = dynamics.tip_turn[limb, :, 0]
-        if abs(float(normal @ x)) > 0.9:
-            x = dynamics.tip_turn[limb, :, 1]
-        first = x - (normal @ x) * normal
-        first /= np.linalg.norm(first)
-        aims.frame[limb] = normal, first, np.cross(normal, first)
-        mu = min(contact.friction, math.inf if patch.friction is None else patch.friction)
-        tilt = math.acos(min(1.0, max(-1.0, -float(dynamics.tip_turn[limb, :, 2] @ normal))))
-        pull = min(
-            contact.pull * max(0.0, 1.0 - contact.tilt_loss * tilt),
-            math.inf if patch.strength is None else patch.strength,
-        )
-        rows, limits = contact.polytope(NESTED * mu, NESTED * pull)
-        aims.components[limb], aims.n_rows[limb] = contact.components, len(rows)
+        turn = dynamics.tip_turn[limb]
+        aims.frame[limb], rows, limits = contact_rows(self.robot, self.world, limb, hold, turn, NESTED)
+        aims.components[limb], aims.n_rows[limb] = self.robot.contacts[limb].components, len(rows)
         aims.rows[limb, : len(rows)], aims.limits[limb, : len(rows)] = rows, limits
         aims.does[limb], aims.cap[limb] = HOLDS, math.inf
         self._bear_friction(limb, False)
