@@ -56,8 +56,10 @@ def test_quick_results_of_chapter_4_keep_their_verdicts(name: str, tmp_path: Pat
 
 
 PAGES = Path(__file__).resolve().parents[2] / "docs" / "studies"
-FALLS = "SCCT, Table 4.1, limit of 4.4.2: "
-"""How a climb falls differs from machine to machine; that it does is told by its verdict."""
+AT_ITS_EDGE = "SCCT, Table 4.1, limit of 4.4.2"
+"""How a climb falls, or how far one strays that nearly does, differs with the last bits of a processor's arithmetic: on the ideal plant the
+body was 27.5 mm off its path at most on one processor, 22.7 mm on another. That it falls or climbs, and how far up, does not."""
+SAME_EVERYWHERE = ("verdict by the rule", "ideal plant: ended by", "ideal plant: rise of the body [in]")
 
 
 def numbers(page: Path) -> dict[str, str]:
@@ -72,7 +74,7 @@ def test_the_pages_tell_todays_numbers(name: str, tmp_path: Path) -> None:
     printed, now = (numbers(folder / "bevly-1997" / f"{name}.md") for folder in (PAGES, tmp_path))
     assert list(printed) == list(now) and len(printed) > 20
     for row, told_there in printed.items():
-        if row.startswith(FALLS) and not row.endswith("verdict by the rule"):
+        if row.startswith(AT_ITS_EDGE) and not row.endswith(SAME_EVERYWHERE):
             continue
         try:
             expected: object = pytest.approx(float(told_there), rel=0.1, abs=2e-3)
