@@ -1,9 +1,9 @@
 """Loads of a stance farthest from all limits of contacts and motors.
 
 The planner's programme finds wrenches that leave the most of the limit that binds; what does not bind may be anywhere up to there,
-friction of feet all but used up. Here wrenches that balance the same are moved to where the product of all that is left of the limits is
-largest: the analytic centre of Sonnevend (1986), by Newton's method, damped so that no step leaves the limits (Nesterov and Nemirovskii
-1994).
+friction of feet all but used up. Here wrenches that balance the same, and leave every contact nearly as much as the programme leaves the
+one that binds, are moved to where the product of all that is left is largest: the analytic centre of Sonnevend (1986), by Newton's
+method, damped so that no step leaves the limits (Nesterov and Nemirovskii 1994).
 """
 
 import math
@@ -14,11 +14,14 @@ import numpy as np
 from ....control.whole_body.tree import FREE, Dynamics, State
 from ....control.whole_body.tree_kernels import work_out
 from ....types import Floats, Ints
+from ....units import GRAVITY
 from ..control.believed_tree import believed_tree, joint_limits
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .plant import Pose
 
+KEPT: Final = 0.9
+"""What every contact has left of its limits stays this part of what the planner's programme leaves of the one that binds [-]."""
 STEPS: Final = 40
 """Of Newton's method at most."""
 NEAR: Final = 1e-3
@@ -78,13 +81,15 @@ class LoadCentre:
         work_out(self._tree, state, dynamics)
         bearing = [limb for limb, hold in enumerate(holds.tolist()) if hold >= 0]
         turns, bounds, parts, at = [], [], [], 0
+        weight = GRAVITY * self._robot.chains.total_mass
         for limb in bearing:
             turn = dynamics.tip_turn[limb]
             frame, rows, limits = contact_rows(self._robot, self._world, limb, int(holds[limb]), turn, 1.0)
             size = self._robot.contacts[limb].components
             turns.append((np.kron(np.eye(size // 3), frame), dynamics.jacobian[limb, :size]))
             parts.append(slice(at, at + size))
-            bounds.append((rows[:, :size], limits))
+            scale = np.array([row.slack[0] * weight + row.slack[1] for row in self._robot.contacts[limb].rows])
+            bounds.append((rows[:, :size], limits, scale))
             at += size
         if not bearing:
             return loads
@@ -94,11 +99,13 @@ class LoadCentre:
         levers = np.concatenate([turn @ jacobian for turn, jacobian in turns])
         torque = dynamics.weight[FREE:] - start @ levers[:, FREE:]
         matrix, limit = [-levers[:, FREE:].T, levers[:, FREE:].T], [self._torque - torque, self._torque + torque]
-        for part, (rows, limits) in zip(parts, bounds, strict=True):
+        rooms = [limits - rows @ start[part] for part, (rows, limits, _) in zip(parts, bounds, strict=True)]
+        least = max(0.0, min(float((room / scale).min()) for room, (_, _, scale) in zip(rooms, bounds, strict=True)))
+        for part, room, (rows, _, scale) in zip(parts, rooms, bounds, strict=True):
             whole = np.zeros((len(rows), at))
             whole[:, part] = rows
             matrix.append(whole)
-            limit.append(limits - rows @ start[part])
+            limit.append(room - KEPT * least * scale)
         moved = centre(np.concatenate(matrix), np.concatenate(limit), levers[:, :FREE].T)
         found = loads.copy()
         for limb, part, (turn, _) in zip(bearing, parts, turns, strict=True):
