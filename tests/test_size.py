@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_547,
-    "files": 667,
+    "lines": 100_460,
+    "files": 665,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 57,
     "median length of a line": 40,
