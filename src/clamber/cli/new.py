@@ -9,9 +9,10 @@ import typer
 from ..family import BUILT_IN, family_named
 from ..json_form import Key
 from ..tasks.imported import ImportedLimb
+from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
-from ..terminal.output import check_new, print_json, print_new
+from ..terminal.output import check_new, print_json, print_new, stderr
 from .commands import read_place
 
 if TYPE_CHECKING:
@@ -158,7 +159,8 @@ def robot(
     from .starters import imported_robot, robot_starter
 
     if model is not None:
-        found = imported_robot(model, output)
+        with LiveLine(stderr(), quiet=as_json, doing=f"reading {model.name}"):
+            found = imported_robot(model, output)
         write_atomically(output, found.text)
         new = NewRobot({"robot": str(output)}, found.name, found.mass, found.limbs, found.repaired, found.dropped)
         lines = [f"robot '{found.name}' of {len(found.limbs)} limbs, {found.mass:.4g} kg"]
@@ -207,7 +209,8 @@ def _write_board(
     made = describe_board(data, written)
     following = f"clamber check {board_file}"
     if task_file is not None:
-        climb = task_data(data, str(board_file), task_file, overrides)
+        with LiveLine(stderr(), quiet=as_json, doing="finding the start"):
+            climb = task_data(data, str(board_file), task_file, overrides)
         comment = "From the lowest stance that the rules allow to the top of the board beside it."
         write_atomically(task_file, toml_text(climb, comment))
         following = f"clamber show {task_file}; clamber plan {task_file} --planner auto"
@@ -243,7 +246,8 @@ def task(
     from ..files import write_atomically
     from .starters import task_starter
 
-    made = task_starter(output, robot, board, like, overrides or [], world)
+    with LiveLine(stderr(), quiet=as_json, doing="finding the start"):
+        made = task_starter(output, robot, board, like, overrides or [], world)
     write_atomically(output, made.text)
     told = f"task '{made.data['name']}' for robot '{made.data['robot']}'"
     following = f"clamber check {output}; clamber plan {output} --planner auto"

@@ -3,10 +3,11 @@
 import math
 from collections.abc import Iterator
 from itertools import islice, product
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import cKDTree
 
 from ....planning.problem.check import TICKS
 from ....planning.problem.codes import pack
@@ -18,9 +19,6 @@ from ..statics.elbows import EVERY
 from ..statics.records import STANCE
 from .arrays import CHECKS, limbed_params
 from .task import LimbedTask
-
-if TYPE_CHECKING:
-    from scipy.spatial import cKDTree
 
 CHOICES: Final = 5
 """Holds that are tried for each limb, and free."""
@@ -45,8 +43,6 @@ def first_stance(task: LimbedTask) -> Json | None:
     Returns:
         x, y, theta and holds; None if no place has a valid stance with two holders.
     """
-    from scipy.spatial import cKDTree  # takes a tenth of a second to import
-
     params = limbed_params(task, every_check=False)
     points = task.world.positions()
     tree = cKDTree(points)
@@ -68,8 +64,6 @@ def liked_stance(task: LimbedTask) -> Json | None:
     Returns:
         As `first_stance`.
     """
-    from scipy.spatial import cKDTree
-
     params, points, n = limbed_params(task, every_check=True), task.world.positions(), len(task.robot.limbs)
     tree, scales = cKDTree(points), _scales(task)
     most, top = max(2, int(MOST_COMBINATIONS ** (1.0 / n) + 0.5)), float(points[:, 1].min()) + task.robot.longest_reach
@@ -142,7 +136,7 @@ def _steps(low: float, high: float, stride: float) -> range:
 def _best_here(
     task: LimbedTask,
     record: np.void,
-    tree: "cKDTree",
+    tree: cKDTree,
     points: npt.NDArray[np.float64],
     place: tuple[int, int],
 ) -> tuple[int, ...] | None:
@@ -165,7 +159,7 @@ def _best_here(
 
 def _near(
     task: LimbedTask,
-    tree: "cKDTree",
+    tree: cKDTree,
     points: npt.NDArray[np.float64],
     place: tuple[int, int],
     *,
