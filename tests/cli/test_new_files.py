@@ -113,6 +113,34 @@ def test_nobody_loses_a_file_that_is_there(run: Run, tmp_path: Path) -> None:
     assert (tmp_path / "robot.toml").read_text().startswith("# A robot (limbed)")
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "plan ladder -o mine.toml",
+        "plan ladder --history mine.toml",
+        "learn ladder -o mine.TOML",
+        "reach five_holds -o mine.toml",
+        "export libra -o mine.xml",
+        "export libra -o mine.urdf",
+        "show ladder -o mine.urdf",
+        "limb identify log.csv -o mine.toml",
+        "bench boards -o mine.toml",
+    ],
+)
+def test_nothing_that_people_write_is_replaced_by_a_result(run: Run, tmp_path: Path, words: str) -> None:
+    mine = tmp_path / words.split()[-1]
+    mine.write_text("mine")
+    code, _, err = run(*words.split())
+    assert code == 2 and f"{mine.name}: " in err and "Traceback" not in err
+    assert mine.read_text() == "mine"
+
+
+def test_a_robot_is_exported_again_over_its_file_when_that_is_asked_for(run: Run, tmp_path: Path) -> None:
+    words = ("export", "libra", "-o", "libra.urdf")
+    assert [run(*words)[0], run(*words)[0], run(*words, "--force")[0]] == [0, 2, 0]
+    assert run("export", "ladder-hand", "-o", "plan.csv")[0] == run("export", "ladder-hand", "-o", "plan.csv")[0] == 0
+
+
 @pytest.mark.parametrize("there", ["mine.toml", "mine-board.toml"])
 def test_no_random_board_is_written_over_a_file_that_is_there(run: Run, tmp_path: Path, there: str) -> None:
     (tmp_path / there).write_text("mine")

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from ..terminal.name_completion import names_of
-from ..terminal.options import AsJson, Overrides
+from ..terminal.options import AsJson, Force, Overrides
 from ..terminal.output import check_writable, print_json, stdout
 
 
@@ -25,6 +25,7 @@ def export(
         typer.Option(help="For a plan: in this task, in place of its own.", autocompletion=names_of("tasks")),
     ] = None,
     overrides: Overrides = None,
+    force: Force = False,
     as_json: AsJson = False,
 ) -> None:
     """Write a robot, a plan or a run for other programs; the file's suffix says as what.
@@ -33,7 +34,7 @@ def export(
     .contacts.json (stances and contacts of a robot in space), .md (a table). A run's log: .csv, .json. Pictures and animations are made
     by `clamber show` and `clamber run`.
     """
-    check_writable(output)
+    check_writable(output, force=force)
     from ..exports.library import export as write
 
     written = write(thing, output, task, overrides or ())

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Final
 
 import typer
 
@@ -11,7 +11,7 @@ from ..json_form import Key
 from ..tasks.imported import ImportedLimb
 from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
-from ..terminal.options import BOARD, ROBOT, AsJson, takes_options
+from ..terminal.options import BOARD, ROBOT, AsJson, Force, takes_options
 from ..terminal.output import check_new, print_json, print_new, stderr
 from .commands import read_place
 
@@ -23,7 +23,6 @@ new = typer.Typer(help="Write a file to start from: robot, board or task.", no_a
 
 
 LIKE: Final = "Start from this one in place of a made-up one."
-Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 
 
 def _named(kind: str, meaning: str) -> Any:

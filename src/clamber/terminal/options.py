@@ -112,6 +112,7 @@ Faults: TypeAlias = Annotated[
 AsJson: TypeAlias = Annotated[bool, typer.Option("--json", help="Print one JSON value and nothing else.")]
 Quiet: TypeAlias = Annotated[bool, typer.Option("--quiet", "-q", help="Tell nothing on the way.")]
 Output: TypeAlias = Annotated[Path | None, typer.Option("--output", "-o", metavar="FILE", help="File to write.")]
+Force: TypeAlias = Annotated[bool, typer.Option("--force", help="Write over a file that is there.")]
 Workers: TypeAlias = Annotated[
     int | None, typer.Option(min=1, help="Processes; one a core unless given. With --ray: most points at work at once.")
 ]

@@ -32,6 +32,10 @@ class PlainConsole(Console):
             yield piece if piece.control or piece.text.isprintable() else Segment(printable(piece.text), piece.style)
 
 
+STATED: Final = (".toml", ".xml", ".urdf")
+"""Files that people write: robots, worlds, tasks and models. What a command found out replaces none."""
+
+
 def stdout() -> Console:
     """Where results go; 80 columns and no colour when piped."""
     return PlainConsole(highlight=False, markup=False, emoji=False)
@@ -132,23 +136,27 @@ def refuse_unused(options: "DataclassInstance", unused: Collection[str], why: st
             raise typer.BadParameter(f"{why}: this has no meaning for it", param_hint=flag)
 
 
-def check_writable(path: Path | None) -> None:
-    """Makes sure that a file can be written before hours are spent on what goes into it.
+def check_writable(path: Path | None, *, force: bool = False) -> None:
+    """Makes sure that a file can be written before hours are spent on what goes into it, and that nobody's work is lost by it.
 
     Raises:
-        FileError: As `check_target`.
+        FileError: As `check_target`, or if it is of a kind that people write, is there already and `force` is not given.
     """
     if path is not None:
         check_target(path)
+        if path.suffix.lower() in STATED and is_there(path) and not force:
+            raise FileError(
+                str(path), "is there already", f"files of {', '.join(STATED)} may be somebody's work: name another file"
+            )
 
 
 def check_new(path: Path, force: bool) -> None:
-    """Makes sure that a file can be written, and that nobody's work is lost by it.
+    """Makes sure that a file can be written, and that there is none.
 
     Raises:
-        FileError: If it can't, or is there already and `force` is not given.
+        FileError: As `check_target`, or if it is there already and `force` is not given.
     """
-    check_writable(path)
+    check_target(path)
     if is_there(path) and not force:
         raise FileError(str(path), "is there already", "name another file, or write over it with --force")
 

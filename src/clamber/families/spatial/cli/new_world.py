@@ -8,7 +8,7 @@ import typer
 
 from ....json_form import Count
 from ....terminal.name_completion import names_of
-from ....terminal.options import AsJson, takes_options
+from ....terminal.options import AsJson, Force, takes_options
 from ....terminal.output import check_new, name_of, print_json, print_new
 from ..world.made import Kind
 
@@ -82,7 +82,7 @@ class WorldOptions:
         float, typer.Option("--left-out", min=0.0, max=0.95, help="Share of holds that are missing, at random.")
     ] = 0.0
     seed: Annotated[int, typer.Option(min=0, help="Same seed, same world, on any machine.")] = 0
-    force: Annotated[bool, typer.Option("--force", help="Write over a file that is there.")] = False
+    force: Force = False
     output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="File to write.")] = Path("world.toml")
     as_json: AsJson = False
 
