@@ -31,7 +31,7 @@ FELT: Final = 3
 """Readings in a row by which a foot feels its ground."""
 SURE: Final = 1.5
 """With what a foot is pressed on that has felt its ground, of the force by which it feels it [-]."""
-LIFTED: Final = 0.1
+LIFTED: Final = 0.05
 """A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
 SINGULAR: Final = 0.01
 """A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""

@@ -30,7 +30,7 @@ class Handling:
     """Largest acceleration of the body on its way, of the agility [-]."""
     swing: PositiveRatio = 0.2
     """The same of a tip that swings [-]."""
-    shift: PositiveRatio = 0.5
+    shift: PositiveRatio = 1.0
     """Time in which load passes from one set of limbs to another, of what the agility takes for the length of a limb [-]."""
     touch: PositiveRatio = 0.02
     """Force at which a foot stands, of the weight on Earth [-]."""
