@@ -60,17 +60,9 @@ def _planners() -> list[tuple[str, str]]:
     return [(name, planner.title) for name, planner in PLANNERS.items()]
 
 
-def _controllers() -> list[tuple[str, str]]:
-    return list(LAW_TITLES.items())
-
-
 def _checks() -> list[tuple[str, str]]:
     checks = (check for family in BUILT_IN for check in family_named(family).checks)
     return [(check.name, f"[{check.unit}] {check.meaning}") for check in checks]
-
-
-def _plants() -> list[tuple[str, str]]:
-    return list(PLANT_TITLES.items())
 
 
 def _families() -> list[tuple[str, str]]:
@@ -88,8 +80,8 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "plans": _plans,
     "planners": lambda: [*_planners(), *outside_titles("planners")],
     "checks": lambda: [*_checks(), *outside_titles("checks")],
-    "controllers": lambda: [*_controllers(), *outside_titles("controllers")],
-    "plants": lambda: [*_plants(), *outside_titles("plants")],
+    "controllers": lambda: [*LAW_TITLES.items(), *outside_titles("controllers")],
+    "plants": lambda: [*PLANT_TITLES.items(), *outside_titles("plants")],
 }
 
 

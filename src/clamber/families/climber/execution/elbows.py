@@ -109,14 +109,10 @@ def _not_on_top(posture: Posture, _: bool) -> float:
     return ON_TOP * (1.0 - posture.on_top)
 
 
-def _not_planned(_: Posture, off_plan: bool) -> float:
-    return OFF_PLAN * off_plan
-
-
 DRAWBACKS: Final[dict[str, Callable[[Posture, bool], float]]] = {
     "hook": _not_on_top,
     "foot": _not_on_top,
-    "gripper": _not_planned,
+    "gripper": lambda _, off_plan: OFF_PLAN * off_plan,
 }
 """Kind of end effector -> what its posture, or one off the plan, counts after each action; a gripper may hold from anywhere."""
 
