@@ -356,3 +356,9 @@ def test_a_batch_has_a_file_of_its_own_that_stays_where_something_in_it_would_be
         batch.store.unlink()
     else:
         assert "interrupted before any of the points had ended" in told
+
+
+def test_an_interrupt_after_all_is_told_changes_nothing() -> None:
+    late = "import atexit, os, signal; atexit.register(os.kill, os.getpid(), signal.SIGINT); from clamber.cli import main; main()"
+    ended = subprocess.run([sys.executable, "-c", late, "list", "robots"], capture_output=True, text=True, check=False)
+    assert (ended.returncode, ended.stderr) == (0, "") and "libra" in ended.stdout

@@ -19,7 +19,7 @@ from clamber.families.climber.pictures.geometry import body_outline, joint_angle
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.robot.robot import Limb
-from clamber.families.walker.pictures.walker_motion import hull, settled_moment, walker_motion
+from clamber.families.walker.pictures.walker_motion import settled_moment, walker_motion
 from clamber.families.walker.pictures.walker_view import WalkerView, describe_walk
 from clamber.families.walker.planning.problem import WalkerProblem, outline, walker_table
 from clamber.families.walker.planning.task import WalkerTask
@@ -394,11 +394,11 @@ def test_both_frames_stand_within_a_swap_alone(walk: Walk) -> None:
     assert len(at.support) == 6
 
 
-def test_a_hull_holds_its_points_and_turns_left() -> None:
-    points = np.random.default_rng(0).normal(size=(40, 2))
-    corners = hull(points)
-    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        assert np.min((b - a)[0] * (points - a)[:, 1] - (b - a)[1] * (points - a)[:, 0]) >= -1e-12
+def test_the_support_holds_the_feet_on_the_ground_and_turns_left(walk: Walk) -> None:
+    for moment in (settled_moment(walk.task, stance) for stance in walk.replay.stances):
+        feet = np.vstack([moment.outline.feet[f] for f in (0, 1) if moment.lifts[f] == 0.0])
+        for a, b in zip(moment.support, np.roll(moment.support, -1, axis=0), strict=True):
+            assert np.min((b - a)[0] * (feet - a)[:, 1] - (b - a)[1] * (feet - a)[:, 0]) >= -1e-12
 
 
 def test_drawn_actuators_are_as_long_as_the_kernel_says(walk: Walk) -> None:

@@ -1,5 +1,8 @@
 """The command `clamber`: one file or folder per command; they read options, call the package and print what it answers."""
 
+import atexit
+import gc
+import signal
 import sys
 from collections.abc import Sequence
 from typing import Final
@@ -16,6 +19,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     Args:
         arguments: Words after `clamber`; None takes those of the process.
     """
+    atexit.register(_leave)
     code: int | str | None = INTERRUPTED
     with listening():
         try:
@@ -29,3 +33,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         print("clamber: interrupted", file=sys.stderr)
         code = INTERRUPTED
     sys.exit(code)
+
+
+def _leave() -> None:
+    """Leave to the system what a command that has told all still holds; undoing it would take Python a second."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # there is nothing to end any more
+    gc.freeze()

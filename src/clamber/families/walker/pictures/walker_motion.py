@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from ....types import Floats, Ints
 from ....viewing import style
@@ -85,25 +86,7 @@ class WalkerMoment:
     def support(self) -> Floats:
         """Corners of the hull of the feet on the ground, anticlockwise, shape (3 or 6, 2)."""
         feet = np.vstack([self.outline.feet[f] for f in (0, 1) if self.lifts[f] == 0.0])
-        return feet if len(feet) == 3 else hull(feet)
-
-
-def hull(points: Floats) -> Floats:
-    """Corners of the convex hull of points, anticlockwise, shape (m, 2)."""
-    ordered = sorted(map(tuple, points.tolist()))
-    sides = []
-    for row in (ordered, ordered[::-1]):
-        side: list[tuple[float, ...]] = []
-        for x, y in row:
-            while len(side) > 1 and _turn(side[-2], side[-1], (x, y)) <= 0.0:
-                side.pop()
-            side.append((x, y))
-        sides += side[:-1]
-    return np.array(sides)
-
-
-def _turn(a: tuple[float, ...], b: tuple[float, ...], c: tuple[float, ...]) -> float:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+        return feet if len(feet) == 3 else feet[ConvexHull(feet).vertices]
 
 
 def settled_moment(task: WalkerTask, stance: np.void) -> WalkerMoment:
