@@ -49,29 +49,19 @@ def calibrate(
         print_json(found)
         return
     console = stdout()
-    table = plain_table(
-        "free",
-        "R [mm]",
-        "R_y [mm]",
-        "offset",
-        "drawn in",
-        "least",
-        "most",
-        "step",
-        "misfit",
-        "seeds",
-        right=("R [mm]", "R_y [mm]", "offset", "drawn in", "least", "most", "step", "misfit", "seeds"),
-    )
+    columns = ("R", "R_y", "offset", "drawn", "least", "most", "step", "misfit")
+    table = plain_table("free", *columns, right=columns)
     for number, rivals in enumerate(found, 1):
         for k, fit in enumerate(rivals.fits):
-            counted = f"{rivals.good}/{rivals.seeds}" if k == 0 else ""
-            table.add_row(f"({number})" if k == 0 else "", *_numbers(fit), counted)
+            table.add_row(f"({number})" if k == 0 else "", *_numbers(fit))
     console.print(table)
     for number, rivals in enumerate(found, 1):
-        console.print(f"({number}) {rivals.family.name}; step: {rivals.family.reading}")
+        console.print(
+            f"({number}) {rivals.good} of {rivals.seeds} starts: {rivals.family.name}; step: {rivals.family.reading}"
+        )
     console.print(
-        "misfit: largest difference from what is given, in half last places (0.5 deg, 0.5 mm); 1 and below rounds to it. "
-        "seeds: how many starts came as near. Lengths in mm, angles in deg."
+        "R, R_y: radii of the circles; drawn: length of an actuator drawn in. Lengths in mm, angles in deg. starts: how many came as near. "
+        "misfit: largest difference from what is given, in half last places (0.5 deg, 0.5 mm); 1 and below rounds to it."
     )
     if published == HOSHINO_1995:
         console.print("Best directions turn with the whole mechanism, so they tell no fit from another.")
@@ -86,8 +76,8 @@ def _numbers(fit: "Fit") -> tuple[str, ...]:
         f"{sizes.radius * sizes.ratio * mm:.1f}",
         f"{sizes.offset / DEGREE:.1f}",
         f"{sizes.shortest * mm:.1f}",
-        f"{fit.least / DEGREE:.2f}",
-        f"{fit.most / DEGREE:.2f}",
-        f"{fit.step * mm:.2f}",
+        f"{fit.least / DEGREE:.1f}",
+        f"{fit.most / DEGREE:.1f}",
+        f"{fit.step * mm:.1f}",
         f"{fit.misfit:.2f}",
     )
