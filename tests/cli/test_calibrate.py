@@ -17,7 +17,9 @@ def test_calibrate_lists_fits_and_rivals(clamber: Clamber) -> None:
     assert all(rivals["seeds"] == 1 for rivals in told)
     code, out, _ = clamber("calibrate", "--seeds", "1")
     assert code == 0
-    assert "(1) 1 of 1 starts: equal circles, neighbouring tips; step: chord through the centre" in " ".join(out.split())
+    assert "(1) 1 of 1 starts: equal circles, neighbouring tips; step: chord through the centre" in " ".join(
+        out.split()
+    )
 
 
 @pytest.mark.parametrize(
