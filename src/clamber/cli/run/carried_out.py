@@ -1,5 +1,6 @@
 """A task, a plan or a walk carried out once, and what is told of it."""
 
+from pathlib import Path
 from typing import Any
 
 import typer
@@ -79,13 +80,18 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
 def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
     """Write the files of a run and print it."""
     if words.outputs:
-        from ...viewing.pictures import draw_run
+        from ...viewing.pictures import ANIMATIONS, draw_run
+
+    left_out: list[Path] = []
+    if run.report.reason == "interrupted":  # films and pages take many seconds
+        left_out = [file for file in words.outputs if file.suffix.lower() in ANIMATIONS]
+        left_out += [] if words.report is None else [words.report]
     with LiveLine(stderr(), quiet=words.quiet) as line:
         for file in words.outputs:
-            if file != words.growing:
+            if file not in (words.growing, *left_out):
                 draw_run(run, file, line.counting(f"{file.name}: frame"))
-    written = words.written(run.log_gap)
-    if words.report is not None:
+    written = tuple(file for file in words.written(run.log_gap) if file not in left_out)
+    if words.report is not None and words.report not in left_out:
         from ...viewing.report.run_page import write_run_report
 
         written = (*written, write_run_report(run, command, words.report))
@@ -98,3 +104,5 @@ def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
         console.print(str(run.log_gap), soft_wrap=True)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
+    if left_out:
+        console.print(f"not made, as the run was interrupted: {', '.join(map(str, left_out))}", soft_wrap=True)
