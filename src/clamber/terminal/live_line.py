@@ -68,7 +68,7 @@ class LiveLine:
 
     def say(self, words: str) -> None:
         """Tell something that is not to be overwritten, asked for or not."""
-        self._console.print(words, soft_wrap=True)
+        self._console.print(words, soft_wrap=not self._console.is_terminal)  # a log's lines stay whole
 
     def show(self, words: str, share: float | None = None, *, now: bool = False) -> None:
         """Tell this moment, if it is time to.
