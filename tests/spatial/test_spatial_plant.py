@@ -7,8 +7,11 @@ import pytest
 from standing import Standing
 
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
+from clamber.families.spatial.statics.collision_kernels import limb_body_gap, pair_gap
 from clamber.families.spatial.statics.kinematics_kernels import limb_frames
 from clamber.families.spatial.statics.records import WORK, robot_record
+from clamber.planning.problem.check import UNLIMITED
+from clamber.types import Floats
 
 OWN = ("wall-gripper", "stones-quadruped", "rubble-hexapod", "corners-magnet", "ceiling-gripper")
 
@@ -40,6 +43,53 @@ def test_the_model_moves_its_tips_where_statics_have_them() -> None:
         limb_frames(robot[0], limb, work[0])
         tip = stand.pose.position + stand.pose.rotation @ work["origin"][0, limb, n]
         assert stand.plant.truth().tips[limb] == pytest.approx(tip, abs=1e-9)
+
+
+def test_limbs_that_are_driven_against_each_other_do_not_pass() -> None:
+    """Two legs in the air press on each other; their capsules, as plans have them, give way by less than a millimetre."""
+    stand = Standing("rubble-hexapod")
+    one, other = (stand.robot.chains.limb_names.index(name) for name in ("RM", "RF"))
+    for limb, turn in ((one, 0.6), (other, -0.6)):
+        stand.joints[3 * limb + 1] += 0.5  # lifts the foot
+        stand.joints[3 * limb] += turn
+    gaps = []
+    for _ in range(10):
+        stand.stay(0.1)
+        gaps.append(gap(stand, one, other))
+    assert gaps[0] > -1e-3
+    assert gaps[-1] == pytest.approx(0.0, abs=1e-3)
+    assert min(gaps) > -1e-3
+
+
+def test_a_limb_that_is_folded_against_the_base_does_not_pass_into_it() -> None:
+    """The last link of a leg comes to rest on the base, its end, which colliders leave out, by less than its radius in it."""
+    stand = Standing("rubble-hexapod")
+    robot, lower = robot_record(stand.robot.chains, stand.robot.contacts)[0], stand.robot.chains.lower[0]
+    stand.joints[0] = 0.0
+    stand.joints[1:3] = lower[1:3]
+    gaps = []
+    for _ in range(15):
+        stand.stay(0.1)
+        gaps.append(float(limb_body_gap(robot, 0, origins(stand)[0], UNLIMITED)))
+    assert -stand.robot.chains.radius[0, 2] < min(gaps) < 0.0
+
+
+def origins(stand: Standing) -> Floats:
+    """Where the joints of all limbs truly are, base frame [m], shape (limbs, joints + 1, 3)."""
+    chains, robot = stand.robot.chains, robot_record(stand.robot.chains, stand.robot.contacts)
+    work = np.zeros(1, WORK)
+    joints = np.split(stand.plant.truth().joints[0], np.cumsum(chains.n_joints)[:-1])
+    for limb, mine in enumerate(joints):
+        work["posture"][0, limb, : len(mine)] = mine
+        limb_frames(robot[0], limb, work[0])
+    placed: Floats = work["origin"][0]
+    return placed
+
+
+def gap(stand: Standing, one: int, other: int) -> float:
+    """Between the links of two limbs [m]."""
+    at, robot = origins(stand), robot_record(stand.robot.chains, stand.robot.contacts)[0]
+    return float(pair_gap(robot, one, other, at[one], at[other]))
 
 
 def test_a_look_at_how_things_are_changes_nothing() -> None:

@@ -1,5 +1,7 @@
 """Judging a stance of a task in space, and a limb's way to another: where its limbs are, and what statics says of it."""
 
+import math
+
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
@@ -7,7 +9,7 @@ from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
 from ..statics.checks import LIMB_BODY, LIMB_LIMB
 from ..statics.collision_kernels import limb_body_gap, pair_gap
-from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, PATH_POINTS, RULES, SEEDS, WORK
+from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, RULES, SEEDS, WORK
 from ..statics.stance_kernels import (
     aim_limb,
     judge,
@@ -28,6 +30,8 @@ from .solids_kernels import limb_solids_gap, solids_gap, tip_room
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
+FINEST = 0.01
+"""Step in which a swinging limb's links are looked at where they are close to something, per size of the robot, or their radius [-]."""
 
 
 @inlined
@@ -290,6 +294,27 @@ def lessen(margins, check, margin):
 
 
 @kernel
+def way_moved(robot, limb, start, end):
+    """Largest distance by which a joint or the tip of a limb moves between two places of its way [m]."""
+    most = 0.0
+    for k in range(robot.n_joints[limb] + 1):
+        square = 0.0
+        for a in range(3):
+            square += (end[k, a] - start[k, a]) ** 2
+        most = max(most, square)
+    return math.sqrt(most)
+
+
+@kernel
+def pass_between(robot, limb, start, end, share, origin):
+    """Where the joints of a limb are between two places of its way."""
+    for k in range(robot.n_joints[limb] + 1):
+        for a in range(3):
+            origin[k, a] = start[k, a] + share * (end[k, a] - start[k, a])
+    return origin
+
+
+@kernel
 def judge_swing(p, s, limb, hold, margins):
     """Judge the lifted path of a limb from its hold to another, while the others stand as `origin` of the scratch has them.
 
@@ -322,16 +347,34 @@ def judge_swing(p, s, limb, hold, margins):
         return SWING if p.hard >> SWING & 1 else -1
     rules = carray(pointer(p.rules_at), 1, RULES)[0]
     between, beside, away = UNLIMITED, UNLIMITED, UNLIMITED
-    for point in range(PATH_POINTS):
-        origin = work.way[point]
-        for other in range(p.n_limbs):
-            if other != limb:
-                between = min(between, pair_gap(robot, limb, other, origin, work.origin[other]))
-        beside = limb_body_gap(robot, limb, origin, beside)
-        if p.n_solids > 0:
-            solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
-            limb_in_world(robot, body, limb, origin, judged.origin[limb])
-            away = limb_solids_gap(robot, solids, limb, judged.origin[limb], away)
+    fine = robot.size
+    for k in range(1, robot.n_joints[limb]):
+        fine = min(fine, robot.radius[limb, k])
+    fine = max(fine, FINEST * robot.size)
+    for point in range(work.n_way):
+        to = work.way[min(point + 1, work.n_way - 1)]
+        moved = way_moved(robot, limb, work.way[point], to)
+        at = 0.0
+        while True:
+            origin = pass_between(robot, limb, work.way[point], to, at, work.passing)
+            now = UNLIMITED
+            for other in range(p.n_limbs):
+                if other != limb:
+                    now = min(now, pair_gap(robot, limb, other, origin, work.origin[other]))
+            between = min(between, now)
+            slack = now - rules.limb_room
+            now = limb_body_gap(robot, limb, origin, max(beside, rules.limb_room + moved))
+            beside = min(beside, now)
+            slack = min(slack, now - rules.limb_room)
+            if p.n_solids > 0:
+                solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
+                limb_in_world(robot, body, limb, origin, judged.origin[limb])
+                now = limb_solids_gap(robot, solids, limb, judged.origin[limb], max(away, p.clearance + moved))
+                away = min(away, now)
+                slack = min(slack, now - p.clearance)
+            at += max(fine, slack) / max(moved, TOLERANCE)
+            if at >= 1.0:
+                break
     lessen(margins, LIMB_LIMB, between - rules.limb_room)
     lessen(margins, LIMB_BODY, beside - rules.limb_room)
     away -= p.clearance

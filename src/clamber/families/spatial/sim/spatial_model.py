@@ -27,7 +27,13 @@ from .spatial_flaws import Deviations, SpatialFlaws
 LINKS: Final = 1 << 16
 """Bit of what links touch, solids ..."""
 ON_SOLIDS: Final = 8
-"""... each tip has one for its patch, by its limb's number, and one that is so much higher for solids."""
+"""... each tip has one for its patch, by its limb's number, and one that is so much higher for solids ..."""
+ON_LIMBS: Final = 17
+"""... each limb's links have one for those of other limbs, by its number and so much higher, and one for the base behind them all."""
+BESIDE: Final = 1
+"""First links of limbs lie side by side: they touch no other limb's, as in plans ..."""
+FIXED: Final = 2
+"""... and these, fixed to the base and beside it, do not touch the base."""
 TIP: Final = 0.0001
 """Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it.
 
@@ -112,7 +118,8 @@ def _add_robot(
     base = spec.worldbody.add_body(name="base")
     base.add_freejoint(name="floating")
     _fill(base, parts.base, float(deviations.masses[0]), deviations.payload)
-    _add_shapes(mujoco, spec, base, parts.base, "base", None)
+    on_base, limbs = 1 << ON_LIMBS + len(parts.links), ((1 << len(parts.links)) - 1) << ON_LIMBS
+    _add_shapes(mujoco, spec, base, parts.base, "base", None, (LINKS, on_base))
     number = 0
     for limb, (name, links) in enumerate(zip(chains.limb_names, parts.links, strict=True)):
         parent = base
@@ -126,7 +133,9 @@ def _add_robot(
             _fill(parent, part, float(deviations.masses[number]))
             _add_joint(mujoco, spec, parent, robot, (limb, k), flaws)
             tip = chains.offset[limb, n] if k == n - 1 else None
-            _add_shapes(mujoco, spec, parent, part, joint, tip)
+            mine = 1 << ON_LIMBS + limb
+            touching = (LINKS, 0) if k < BESIDE else (LINKS | mine | (on_base if k >= FIXED else 0), limbs & ~mine)
+            _add_shapes(mujoco, spec, parent, part, joint, tip, touching)
         at = quaternion(mujoco, chains.rotation[limb, n])
         hand = parent.add_body(name=tip_name(name), pos=chains.offset[limb, n], quat=at)
         _add_tip(mujoco, spec, hand, name, strengths[limb], 1 << limb)
@@ -169,9 +178,11 @@ def _stop(joint: Any, lower: float, upper: float) -> None:
     joint.solref_limit, joint.solimp_limit = STOP_SOLREF, STOP_SOLIMP
 
 
-def _add_shapes(mujoco: Any, spec: Any, body: Any, part: Part, name: str, tip: Floats | None) -> None:
-    """Colliders of a part, less what is about its tip."""
-    bits = {"contype": LINKS, "conaffinity": 0, "mass": 0.0} | _contact(0.5)
+def _add_shapes(
+    mujoco: Any, spec: Any, body: Any, part: Part, name: str, tip: Floats | None, touching: tuple[int, int]
+) -> None:
+    """Colliders of a part, less what is about its tip, with the bits of what touches and of what is touched."""
+    bits = {"contype": touching[0], "conaffinity": touching[1], "mass": 0.0} | _contact(0.5)
     for number, (whole, radius) in enumerate(part.shapes):
         points = whole if tip is None else _away(whole, tip, CLEAR * max(radius, THIN))
         if len(points) == 1:

@@ -140,6 +140,9 @@ JUDGED = np.dtype(
 
 PATH_POINTS = 7
 """Of a lifted path that are solved."""
+PATH_PARTS = 16
+"""Of the way from one of them to the next, at most. Where a limb can only jump, as to the other of two postures for a place,
+none is small enough, but where the path all but meets the singularity between them: there a limb goes through that."""
 WORK = np.dtype(
     [
         ("posture", "f8", (LIMBS, JOINTS)),
@@ -147,7 +150,10 @@ WORK = np.dtype(
         ("normal", "f8", (LIMBS, 3)),  # out of the surface, base frame
         ("turn", "f8", (LIMBS, JOINTS, 9)),  # T_base_link, row by row
         ("origin", "f8", (LIMBS, JOINTS + 1, 3)),  # of every frame and the tip, base frame
-        ("way", "f8", (PATH_POINTS, JOINTS + 1, 3)),  # `origin` of a limb at the points of its lifted path
+        # `origin` of a limb at the start of its lifted path and at all points of it that were solved, and how many there are
+        ("way", "f8", (PATH_POINTS * PATH_PARTS + 1, JOINTS + 1, 3)),
+        ("n_way", "i8"),
+        ("passing", "f8", (JOINTS + 1, 3)),  # the same between two of them
         ("axis", "f8", (LIMBS, JOINTS, 3)),
         ("jacobian", "f8", (LIMBS, JOINTS, 3)),  # motion of the tip per joint
         ("tip_turn", "f8", (LIMBS, 9)),  # T_base_end, row by row

@@ -10,7 +10,7 @@ from .collision_kernels import body_gap, limbs_gap
 from .equilibrium_kernels import balance_forces, contact_frame, fill_levers
 from .gravity_kernels import base_weight, limb_weight
 from .kinematics_kernels import limb_frames, reach_point, tip_jacobian
-from .records import CHECKS_OF_STANCE, PATH_POINTS
+from .records import CHECKS_OF_STANCE, PATH_PARTS, PATH_POINTS
 from .seeds_kernels import seed_beside, seed_index, take_seed
 
 NEAR = 1e-6
@@ -27,9 +27,6 @@ SHARPEST = 0.1
 """Of an edge that a path goes around, one more than the cosine of its normals [-]."""
 PATH_JUMP = 0.5
 """Largest change of a joint from one posture on a lifted path to the next [rad] or [m]: beyond, postures between are solved, too."""
-PATH_PARTS = 16
-"""Of the way from one of `PATH_POINTS` to the next, at most. Where a limb can only jump, as to the other of two postures for a place,
-none is small enough, but where the path all but meets the singularity between them: there a limb goes through that."""
 PATH_NEAR = 1e-4
 PATH_REACHED = 1e-3
 """Per size of the robot."""
@@ -316,6 +313,15 @@ def follow_path(robot, body, limb, swing, up, u, work):
     return reach_aligned(robot, limb, work, near) if robot.aligned[limb] else reach_point(robot, limb, work, near)
 
 
+@inlined
+def keep_way(robot, limb, work):
+    """Put where the joints of a limb are behind what there is of its way."""
+    for k in range(robot.n_joints[limb] + 1):
+        for a in range(3):
+            work.way[work.n_way, k, a] = work.origin[limb, k, a]
+    work.n_way += 1
+
+
 @kernel
 def swing_reach(robot, tables, body, limb, swing, before, lift, work):
     """How well a limb's tip follows the lifted path between two contacts, from its posture before to that of the stance it goes to.
@@ -330,8 +336,8 @@ def swing_reach(robot, tables, body, limb, swing, before, lift, work):
         swing: Two records of `CONTACT`: where it is and where it goes.
         before: Record of `JUDGED`, or any with such a `posture`: the limb's at the first contact.
         lift: Height of the path [m].
-        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved, and `way` has the joints at
-            `PATH_POINTS` of them.
+        work: Record of `WORK`; afterwards it describes the limb at the last point that was solved, and `way` has the joints at the
+            start and at each of them.
 
     Returns:
         Distance that counts as reached less the largest error of the points [m]; where a joint would have to jump, what is missing of
@@ -344,6 +350,9 @@ def swing_reach(robot, tables, body, limb, swing, before, lift, work):
     for k in range(n):
         goal[k] = posture[k]
         posture[k] = before.posture[limb, k]
+    limb_frames(robot, limb, work)
+    work.n_way = 0
+    keep_way(robot, limb, work)
     lift_over(swing[0].place, swing[1].place, swing[0].normal, swing[1].normal, lift, up)
     room, parts, at = PATH_REACHED * robot.size, PATH_PARTS * PATH_POINTS, 0
     while at < parts:
@@ -367,10 +376,7 @@ def swing_reach(robot, tables, body, limb, swing, before, lift, work):
         if room < 0.0:
             return room
         at += stride
-        if at % PATH_PARTS == 0:
-            for k in range(n + 1):
-                for a in range(3):
-                    work.way[at // PATH_PARTS - 1, k, a] = work.origin[limb, k, a]
+        keep_way(robot, limb, work)
     return room
 
 
