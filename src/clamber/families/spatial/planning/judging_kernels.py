@@ -351,6 +351,8 @@ def judge_swing(p, s, limb, hold, margins):
     for k in range(1, robot.n_joints[limb]):
         fine = min(fine, robot.radius[limb, k])
     fine = max(fine, FINEST * robot.size)
+    # Nothing moves farther than `moved` from one place to the next: where that is less than the least gap, all between them is clear. Else
+    # the limb is looked at again as soon as it could touch, after no less than `fine`
     for point in range(work.n_way):
         to = work.way[min(point + 1, work.n_way - 1)]
         moved = way_moved(robot, limb, work.way[point], to)
