@@ -559,12 +559,12 @@ def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_t
 
 
 def links_that_touch(task: SpatialTask, stance: Standing) -> int:
-    """Contacts of links with solids, by the plant's own colliders, where its tips are put on their holds."""
+    """Contacts of links with anything, by the plant's own colliders, where its tips are put on their holds."""
     plant = SpatialSim(task.robot, task.world)
     plant.reset(stance.pose, stance.joints, stance.holds)
     model, data = plant.model, plant._data
     pairs = [(model.geom(contact.geom1), model.geom(contact.geom2)) for contact in data.contact[: data.ncon]]
-    return sum(any(int(geom.contype[0]) == LINKS for geom in pair) for pair in pairs)
+    return sum(any(int(geom.contype[0]) & LINKS for geom in pair) for pair in pairs)
 
 
 WALLS = (("solids", "at"), ("patterns", "on.at"))
