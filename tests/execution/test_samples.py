@@ -2,7 +2,8 @@
 
 import resource
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -78,17 +79,18 @@ def test_a_log_that_grows_is_whole_at_the_end_and_else_what_there_was(tmp_path: 
     assert len(list(tmp_path.iterdir())) == 2
 
 
-@pytest.fixture
-def full_disk() -> Iterator[Callable[[int], None]]:
-    """Has every file end at a size from now on, as on a disk that is full."""
+@contextmanager
+def full_disk(size: int) -> Iterator[None]:
+    """Has every file end at a size, as on a disk that is full, what pytest itself writes included."""
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
-    yield lambda size: resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
-    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
-def test_a_disk_that_gets_full_is_told_once_and_the_run_goes_on(
-    tmp_path: Path, full_disk: Callable[[int], None]
-) -> None:
+def test_a_disk_that_gets_full_is_told_once_and_the_run_goes_on(tmp_path: Path) -> None:
     robot, told = Counter(), []
     samples = Samples(robot, 1)
     log = WantedLog(tmp_path / "run.mcap", told.append)
@@ -97,14 +99,14 @@ def test_a_disk_that_gets_full_is_told_once_and_the_run_goes_on(
             samples.over(robot.tick)
         while not (part_of(log.path).exists() and part_of(log.path).stat().st_size > 1000):
             time.sleep(0.05)  # the first are on disk
-        full_disk(part_of(log.path).stat().st_size + 100)
-        until = time.monotonic() + 60.0
-        while not told and time.monotonic() < until:
-            samples.over(robot.tick)
-            time.sleep(0.001)
-        for _ in range(100):
-            samples.over(robot.tick)
-        gap = finish({"done": True})
+        with full_disk(part_of(log.path).stat().st_size + 100):
+            until = time.monotonic() + 60.0
+            while not told and time.monotonic() < until:
+                samples.over(robot.tick)
+                time.sleep(0.001)
+            for _ in range(100):
+                samples.over(robot.tick)
+            gap = finish({"done": True})
     assert gap is not None and 1.0 < gap.since <= robot.ticks - 100 and "File too large" in gap.problem
     assert told == [
         f"{part_of(log.path)}: cannot be written (File too large): the log is missing from {gap.since:.2f} s on"
