@@ -186,7 +186,6 @@ def test_the_smallest_room_of_a_check_ends_the_judging_in_order() -> None:
     statics, bodies, contacts = stance("grippers", 15)
     for name, rules in (
         ("joint", {"joint_room": 9.0}),
-        ("limb_limb", {"limb_room": 9.0}),
         ("equilibrium", {"need": 9.0}),
     ):
         _, reasons = statics.judge(bodies, contacts, rules_record(**rules))

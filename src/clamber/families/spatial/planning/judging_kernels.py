@@ -1,14 +1,12 @@
 """Judging a stance of a task in space, and a limb's way to another: where its limbs are, and what statics says of it."""
 
-import math
-
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
 from ..statics.checks import LIMB_BODY, LIMB_LIMB
-from ..statics.collision_kernels import limb_body_gap, pair_gap
+from ..statics.kinematics_kernels import limb_frames
 from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, RULES, SEEDS, WORK
 from ..statics.stance_kernels import (
     aim_limb,
@@ -16,22 +14,30 @@ from ..statics.stance_kernels import (
     judge_forces,
     judge_postures,
     judge_shape,
-    limb_in_world,
     place_in_world,
     solve_limb,
     swing_reach,
     weigh,
 )
-from ..world.solids import SOLID
 from .checks import CLEARANCE, SWING
+from .passing_kernels import (
+    ARRIVING,
+    LEAVING,
+    OF_BASE,
+    OF_LIMBS,
+    OF_SOLIDS,
+    PASSING,
+    follow,
+    forget_gaps,
+    put_places,
+    put_stance,
+)
 from .poses_kernels import holds_of, robot_of
 from .records import AXES, KNOWN, LIFTED
-from .solids_kernels import limb_solids_gap, solids_gap, tip_room
+from .solids_kernels import base_corners, solids_gap, tip_room
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
-FINEST = 0.01
-"""Step in which a swinging limb's links are looked at where they are close to something, per size of the robot, or their radius [-]."""
 
 
 @inlined
@@ -175,8 +181,18 @@ def judge_stance(p, before, s, swinging, moved, margins):
     keep_judged(p, s, out, swinging < 0)
     if broken >= 0:
         return broken
-    margins[CLEARANCE] = solids_gap(p, s, out)
+    margins[CLEARANCE] = judge_clearance(p, s, out)
     return CLEARANCE if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE else -1
+
+
+@kernel
+def judge_clearance(p, s, judged):
+    """Least distance of links and of the base's corners from solids in a stance that was judged, less the clearance asked for [m]."""
+    if p.n_solids == 0:
+        return UNLIMITED
+    corners = carray(pointer(p.work_statics_at), 1, WORK)[0].corners[ARRIVING]
+    base_corners(robot_of(p), s.place, s.turn, corners)
+    return solids_gap(p, judged.origin, corners, -1, UNLIMITED) - p.clearance
 
 
 @inlined
@@ -258,7 +274,7 @@ def judge_taken(p, before, s, limb, margins):
     broken = judge_shape(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, out, work)
     if broken < 0 and out.judged and p.n_solids > 0:
         place_in_world(robot, body, work, out)
-        margins[CLEARANCE] = solids_gap(p, s, out)
+        margins[CLEARANCE] = judge_clearance(p, s, out)
         if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE:
             broken = CLEARANCE
     if broken >= 0:
@@ -294,24 +310,43 @@ def lessen(margins, check, margin):
 
 
 @kernel
-def way_moved(robot, limb, start, end):
-    """Largest distance by which a joint or the tip of a limb moves between two places of its way [m]."""
-    most = 0.0
-    for k in range(robot.n_joints[limb] + 1):
-        square = 0.0
-        for a in range(3):
-            square += (end[k, a] - start[k, a]) ** 2
-        most = max(most, square)
-    return math.sqrt(most)
+def take_gaps(p, least, margins):
+    """Take the least gaps of a way where they are less than the margins of their checks; the first hard one violated, or -1."""
+    lessen(margins, LIMB_LIMB, least[OF_LIMBS])
+    lessen(margins, LIMB_BODY, least[OF_BASE])
+    lessen(margins, CLEARANCE, least[OF_SOLIDS] - p.clearance)
+    for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
+        if p.hard >> check & 1 and margins[check] < -TOLERANCE:
+            return check
+    return -1
 
 
 @kernel
-def pass_between(robot, limb, start, end, share, origin):
-    """Where the joints of a limb are between two places of its way."""
-    for k in range(robot.n_joints[limb] + 1):
-        for a in range(3):
-            origin[k, a] = start[k, a] + share * (end[k, a] - start[k, a])
-    return origin
+def judge_move(p, before, s, margins):
+    """Judge the body's way from one valid stance to another over the same holds, just after `judge_stance` of that.
+
+    Args:
+        p, before, s: Parameters and stances.
+        margins: `limb_limb`, `limb_body` and `clearance` become what they are on the way, if that is less.
+
+    Returns:
+        The first violated hard check, or -1.
+    """
+    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+    body = carray(pointer(p.work_body_at), 1, BODY)[0]
+    put_stance(p, ARRIVING, s.place, s.turn, work)
+    for a in range(9):
+        body.rotation[a] = before.turn[a]
+    for a in range(3):
+        body.place[a] = before.place[a]
+    for limb in range(p.n_limbs):
+        for k in range(JOINTS):
+            work.posture[limb, k] = before.q[limb, k]
+        limb_frames(robot_of(p), limb, work)
+    put_stance(p, LEAVING, before.place, before.turn, work)
+    forget_gaps(work)
+    follow(p, -1, work)
+    return take_gaps(p, work.least, margins)
 
 
 @kernel
@@ -345,47 +380,15 @@ def judge_swing(p, s, limb, hold, margins):
     margins[SWING] = swing_reach(robot, seeds, body, limb, swing, judged, p.lift, work)
     if margins[SWING] < -TOLERANCE:
         return SWING if p.hard >> SWING & 1 else -1
-    rules = carray(pointer(p.rules_at), 1, RULES)[0]
-    between, beside, away = UNLIMITED, UNLIMITED, UNLIMITED
-    fine = robot.size
-    for k in range(1, robot.n_joints[limb]):
-        fine = min(fine, robot.radius[limb, k])
-    fine = max(fine, FINEST * robot.size)
-    # Nothing moves farther than `moved` from one place to the next: where that is less than the least gap, all between them is clear. Else
-    # the limb is looked at again as soon as it could touch, after no less than `fine`
+    forget_gaps(work)
+    for other in range(p.n_limbs):
+        put_places(p, PASSING, other, work.origin[other], work)
     for point in range(work.n_way):
-        to = work.way[min(point + 1, work.n_way - 1)]
-        moved = way_moved(robot, limb, work.way[point], to)
-        at = 0.0
-        while True:
-            origin = pass_between(robot, limb, work.way[point], to, at, work.passing)
-            now = UNLIMITED
-            for other in range(p.n_limbs):
-                if other != limb:
-                    now = min(now, pair_gap(robot, limb, other, origin, work.origin[other]))
-            between = min(between, now)
-            slack = now - rules.limb_room
-            now = limb_body_gap(robot, limb, origin, max(beside, rules.limb_room + moved))
-            beside = min(beside, now)
-            slack = min(slack, now - rules.limb_room)
-            if p.n_solids > 0:
-                solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
-                limb_in_world(robot, body, limb, origin, judged.origin[limb])
-                now = limb_solids_gap(robot, solids, limb, judged.origin[limb], max(away, p.clearance + moved))
-                away = min(away, now)
-                slack = min(slack, now - p.clearance)
-            at += max(fine, slack) / max(moved, TOLERANCE)
-            if at >= 1.0:
-                break
-    lessen(margins, LIMB_LIMB, between - rules.limb_room)
-    lessen(margins, LIMB_BODY, beside - rules.limb_room)
-    away -= p.clearance
+        put_places(p, LEAVING, limb, work.way[point], work)
+        put_places(p, ARRIVING, limb, work.way[min(point + 1, work.n_way - 1)], work)
+        follow(p, limb, work)
     if p.n_solids > 0:
         room = tip_room(p, swing, work)
         if room < 0.0:
-            away = min(away, room)
-    lessen(margins, CLEARANCE, away)
-    for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
-        if p.hard >> check & 1 and margins[check] < -TOLERANCE:
-            return check
-    return -1
+            work.least[OF_SOLIDS] = min(work.least[OF_SOLIDS], p.clearance + room)
+    return take_gaps(p, work.least, margins)

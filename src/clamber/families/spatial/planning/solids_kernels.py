@@ -3,7 +3,7 @@
 import math
 
 from ....compiled import carray, kernel, pointer
-from ....planning.problem.check import TOLERANCE, UNLIMITED
+from ....planning.problem.check import TOLERANCE
 from ..statics.records import CLEAR
 from ..statics.stance_kernels import KEPT_LIFT, lift_over, lifted_share, path_point
 from ..world.solids import SOLID
@@ -42,24 +42,38 @@ def limb_solids_gap(robot, solids, i, origin, gap):
 
 
 @kernel
-def solids_gap(p, s, judged):
-    """Least distance of links and of the base's corners from solids, less the clearance asked for [m]."""
-    if p.n_solids == 0:
-        return UNLIMITED
-    robot = robot_of(p)
-    solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
-    gap = UNLIMITED
-    for i in range(p.n_limbs):
-        gap = limb_solids_gap(robot, solids, i, judged.origin[i], gap)
+def base_corners(robot, place, turn, to):
+    """Write the corners of the base's box in the world frame [m], shape (8, 3), for the pose of a stance."""
     for corner in range(8):
         x = robot.base_half[0] * (1 - 2 * (corner & 1))
         y = robot.base_half[1] * (1 - (corner & 2))
         z = robot.base_half[2] * (1 - (corner >> 1 & 2))
-        wx = s.place[0] + s.turn[0] * x + s.turn[1] * y + s.turn[2] * z
-        wy = s.place[1] + s.turn[3] * x + s.turn[4] * y + s.turn[5] * z
-        wz = s.place[2] + s.turn[6] * x + s.turn[7] * y + s.turn[8] * z
-        gap = min(gap, terrain_distance(solids, wx, wy, wz))
-    return gap - p.clearance
+        for a in range(3):
+            to[corner, a] = place[a] + turn[3 * a] * x + turn[3 * a + 1] * y + turn[3 * a + 2] * z
+
+
+@kernel
+def solids_gap(p, origin, corners, only, gap):
+    """Least distance of links, whose joints are at `origin`, and of the base's corners from solids, if less than `gap` [m].
+
+    Args:
+        p: Parameters.
+        origin: Of all limbs' joints and tips, world frame.
+        corners: Of the base (`base_corners`).
+        only: Limb whose links alone are looked at, -1: all, and the base.
+        gap: What is returned where nothing is nearer.
+    """
+    if p.n_solids == 0:
+        return gap
+    solids = carray(pointer(p.solids_at), p.n_solids, SOLID)
+    for i in range(p.n_limbs):
+        if only < 0 or only == i:
+            gap = limb_solids_gap(robot_of(p), solids, i, origin[i], gap)
+    if only < 0:
+        for corner in range(8):
+            at = corners[corner]
+            gap = min(gap, terrain_distance(solids, at[0], at[1], at[2]))
+    return gap
 
 
 @kernel

@@ -14,7 +14,7 @@ from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
-from .judging_kernels import SCRATCH, copy, judge_stance, judge_swing, judge_taken, scratch_of
+from .judging_kernels import SCRATCH, copy, judge_move, judge_stance, judge_swing, judge_taken, scratch_of
 from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, robot_of
 from .records import AXES, HEIGHT, PITCH, ROLL, YAW
 
@@ -167,8 +167,12 @@ def step(p, before, code, after, margins):
         margins[0] = NOWHERE
         return 0
     kind, limb, _ = unpack(code)
-    grabs = kind in (HOLD, NEAREST)
-    broken = take_hold(p, before, limb, after, margins) if grabs else judge_stance(p, before, after, -1, -1, margins)
+    if kind in (HOLD, NEAREST):
+        broken = take_hold(p, before, limb, after, margins)
+    else:
+        broken = judge_stance(p, before, after, -1, -1, margins)
+        if broken < 0:
+            broken = judge_move(p, before, after, margins)
     if broken >= 0:
         after.stage = before.stage
     return broken

@@ -19,7 +19,7 @@ from ....types import Floats
 from ..robot.contacts import Strength
 from ..robot.parts import Part, parts_of
 from ..robot.robot import SpatialRobot
-from ..statics.records import CLEAR
+from ..statics.records import BESIDE, CLEAR, FIXED
 from ..world.solids import BAR, BOX, CYLINDER, PLANE, TUBE, frame_about
 from ..world.world import World
 from .spatial_flaws import Deviations, SpatialFlaws
@@ -30,10 +30,6 @@ ON_SOLIDS: Final = 8
 """... each tip has one for its patch, by its limb's number, and one that is so much higher for solids ..."""
 ON_LIMBS: Final = 17
 """... each limb's links have one for those of other limbs, by its number and so much higher, and one for the base behind them all."""
-BESIDE: Final = 1
-"""First links of limbs lie side by side: they touch no other limb's, as in plans ..."""
-FIXED: Final = 2
-"""... and these, fixed to the base and beside it, do not touch the base."""
 TIP: Final = 0.0001
 """Radius of the ball that a tip touches with [m]; what it touches lies so much lower, so that the tip itself is where the plan has it.
 

@@ -4,6 +4,7 @@ import math
 
 from ....compiled import kernel
 from ....planning.problem.check import UNLIMITED
+from .records import BESIDE, FIXED
 
 SHORTEST = 1e-14
 """Square of a segment that counts as a point [m^2]."""
@@ -71,20 +72,21 @@ def box_gap(a, b, half):
 def pair_gap(robot, i, j, p, q):
     """Smallest gap between links of the limbs i and j, whose joints are at p and q [m]; first links lie side by side and are left out."""
     gap = UNLIMITED
-    for k in range(1, robot.n_joints[i]):
-        for h in range(1, robot.n_joints[j]):
+    for k in range(BESIDE, robot.n_joints[i]):
+        for h in range(BESIDE, robot.n_joints[j]):
             between = segment_gap(p[k], p[k + 1], q[h], q[h + 1])
             gap = min(gap, between - robot.radius[i, k] - robot.radius[j, h])
     return gap
 
 
 @kernel
-def limbs_gap(robot, work):
-    """Smallest gap between links of different limbs [m]."""
+def limbs_gap(robot, origin, only):
+    """Smallest gap between links of different limbs, whose joints are at `origin`, or of one of them and all others [m]; `only` -1: all."""
     gap = UNLIMITED
     for i in range(robot.n_limbs):
         for j in range(i):
-            gap = min(gap, pair_gap(robot, i, j, work.origin[i], work.origin[j]))
+            if only < 0 or only in (i, j):
+                gap = min(gap, pair_gap(robot, i, j, origin[i], origin[j]))
     return gap
 
 
@@ -92,10 +94,10 @@ def limbs_gap(robot, work):
 def limb_body_gap(robot, i, p, gap):
     """Smallest gap between the base's box and the links of limb i, whose joints are at p, if less than `gap` [m].
 
-    The first two links, which are fixed to the base and beside it, are left out.
+    The first links, which are fixed to the base and beside it, are left out.
     """
     half = robot.base_half
-    for k in range(2, robot.n_joints[i]):
+    for k in range(FIXED, robot.n_joints[i]):
         a, b = p[k], p[k + 1]
         if gap < UNLIMITED:  # two spheres first: most links are far away
             reach = math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
@@ -106,9 +108,9 @@ def limb_body_gap(robot, i, p, gap):
 
 
 @kernel
-def body_gap(robot, work):
-    """Smallest gap between the base's box and links [m]."""
-    gap = UNLIMITED
+def body_gap(robot, origin, only, gap):
+    """Smallest gap between the base's box and links, whose joints are at `origin`, or those of one limb, if less than `gap` [m]."""
     for i in range(robot.n_limbs):
-        gap = limb_body_gap(robot, i, work.origin[i], gap)
+        if only < 0 or only == i:
+            gap = limb_body_gap(robot, i, origin[i], gap)
     return gap

@@ -14,6 +14,12 @@ JOINTS = 7
 """Joint slots of a limb."""
 CLEAR = 3.0
 """The last link of a limb keeps away from solids but for so many of its radii about the tip, which touches for it [-]."""
+BESIDE = 1
+"""So many first links of a limb lie beside those of others: they touch no other limb's, in plans and in the plant ..."""
+FIXED = 2
+"""... and so many, fixed to the base and beside it, do not touch that."""
+FINEST = 0.01
+"""Step at the least in which limbs on their way are looked at, per size of the robot [-]."""
 UNKNOWNS = 6 * LIMBS
 """Components of wrench of all contacts at most."""
 PROGRAMME_ROWS = LIMBS * (MOST_ROWS + 2 * JOINTS)
@@ -38,6 +44,10 @@ ROBOT = np.dtype(
         ("base_half", "f8", (3,)),
         ("total_mass", "f8"),
         ("size", "f8"),  # length of the longest limb when stretched
+        (
+            "fine",
+            "f8",
+        ),  # step in which limbs on their way are looked at where they are close to something: the thinnest link's radius
         # Contact of each limb: row . (wrench / its frame) <= limit, with effective friction mu and pull (`contacts.Contact`)
         ("components", "i8", (LIMBS,)),  # 3: a force, 6: a force and a moment
         ("aligned", "i8", (LIMBS,)),  # 1: postures put the end effector's z along the inward normal
@@ -109,7 +119,6 @@ RULES = np.dtype(
         ("joint_room", "f8"),
         ("jump", "f8"),  # largest change of a joint from the posture before [rad] or [m]
         ("jump_moved", "f8"),  # the same for a limb that moved
-        ("limb_room", "f8"),  # least gap between limbs, and between limbs and the base [m]
         ("hard", "i8"),  # bit i: check i ends the judging
         ("exact", "i8"),  # 1: every margin to its end, 0: as far as the verdict needs
     ],
@@ -153,7 +162,11 @@ WORK = np.dtype(
         # `origin` of a limb at the start of its lifted path and at all points of it that were solved, and how many there are
         ("way", "f8", (PATH_POINTS * PATH_PARTS + 1, JOINTS + 1, 3)),
         ("n_way", "i8"),
-        ("passing", "f8", (JOINTS + 1, 3)),  # the same between two of them
+        # `origin` where limbs on their way leave, where they arrive, and between; the same in the world frame, and the base's corners there
+        ("places", "f8", (3, LIMBS, JOINTS + 1, 3)),
+        ("world", "f8", (3, LIMBS, JOINTS + 1, 3)),
+        ("corners", "f8", (3, 8, 3)),
+        ("least", "f8", (3,)),  # gap on their way: between limbs, of limbs and the base, of either and solids
         ("axis", "f8", (LIMBS, JOINTS, 3)),
         ("jacobian", "f8", (LIMBS, JOINTS, 3)),  # motion of the tip per joint
         ("tip_turn", "f8", (LIMBS, 9)),  # T_base_end, row by row
@@ -209,6 +222,8 @@ def robot_record(chains: Chains, contacts: Sequence[Contact]) -> Records:
     for name in ("base_mass", "base_centre", "base_half", "total_mass"):
         row[name] = getattr(chains, name)
     row["size"] = max(stretched(chains, limb) for limb in range(n))
+    thinnest = min(chains.radius[limb, BESIDE : chains.n_joints[limb]].min(initial=np.inf) for limb in range(n))
+    row["fine"] = max(min(thinnest, row["size"]), FINEST * row["size"])
     for limb, contact in enumerate(contacts):
         rows = contact.rows
         row["components"][limb] = contact.components

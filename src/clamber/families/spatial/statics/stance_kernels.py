@@ -167,12 +167,12 @@ def judge_shape(robot, tables, body, contacts, before, rules, out, work):
             first = check
     if first >= 0 and not rules.exact:
         return first
-    margins[LIMB_LIMB] = limbs_gap(robot, work) - rules.limb_room
+    margins[LIMB_LIMB] = limbs_gap(robot, work.origin, -1)
     if violated(rules, margins, LIMB_LIMB) and first < 0:
         first = LIMB_LIMB
         if not rules.exact:
             return first
-    margins[LIMB_BODY] = body_gap(robot, work) - rules.limb_room
+    margins[LIMB_BODY] = body_gap(robot, work.origin, -1, UNLIMITED)
     if violated(rules, margins, LIMB_BODY) and first < 0:
         first = LIMB_BODY
     return first

@@ -1,0 +1,131 @@
+"""What limbs come near on their way from one solved posture to the next: each other, the base, solids."""
+
+import math
+
+from ....compiled import carray, inlined, kernel, pointer
+from ....planning.problem.check import TOLERANCE, UNLIMITED
+from ..statics.collision_kernels import body_gap, limbs_gap
+from ..statics.records import BODY
+from ..statics.stance_kernels import limb_in_world
+from .poses_kernels import robot_of
+from .solids_kernels import base_corners, solids_gap
+
+LEAVING, ARRIVING, PASSING = range(3)
+"""Which of the places of limbs in the scratch."""
+OF_LIMBS, OF_BASE, OF_SOLIDS = range(3)
+"""Which of the least gaps on a way."""
+
+
+@kernel
+def put_places(p, which, limb, origin, work):
+    """Keep where the joints of a limb are, in the base frame and, for the body that is set, in the world frame."""
+    robot = robot_of(p)
+    places = work.places[which, limb]
+    for k in range(robot.n_joints[limb] + 1):
+        for a in range(3):
+            places[k, a] = origin[k, a]
+    if p.n_solids > 0:
+        limb_in_world(robot, carray(pointer(p.work_body_at), 1, BODY)[0], limb, places, work.world[which, limb])
+
+
+@kernel
+def put_stance(p, which, place, turn, work):
+    """Keep where the joints of all limbs, as solved, and the base's corners are, for the pose of the body that is set."""
+    for limb in range(p.n_limbs):
+        put_places(p, which, limb, work.origin[limb], work)
+    base_corners(robot_of(p), place, turn, work.corners[which])
+
+
+@inlined
+def distance(a, b):
+    """Of two points [m]."""
+    return math.sqrt((b[0] - a[0]) ** 2 + (b[1] - a[1]) ** 2 + (b[2] - a[2]) ** 2)
+
+
+@inlined
+def pass_point(points, i, share):
+    """Put a point where it is at a share of its way."""
+    for a in range(3):
+        points[PASSING, i, a] = points[LEAVING, i, a] + share * (points[ARRIVING, i, a] - points[LEAVING, i, a])
+
+
+@kernel
+def apart_at_most(robot, only, places):
+    """Length that no two joints of different limbs move by more to each other on their way: across the box of all their moves [m]."""
+    square = 0.0
+    for a in range(3):
+        low, high = 0.0, 0.0
+        for limb in range(robot.n_limbs):
+            if only >= 0 and only != limb:
+                continue
+            for k in range(robot.n_joints[limb] + 1):
+                moved = places[ARRIVING, limb, k, a] - places[LEAVING, limb, k, a]
+                low, high = min(low, moved), max(high, moved)
+        square += (high - low) ** 2
+    return math.sqrt(square)
+
+
+@kernel
+def moved_at_most(robot, only, places):
+    """Largest distance by which a joint or tip moves on its way [m]."""
+    most = 0.0
+    for limb in range(robot.n_limbs):
+        if only < 0 or only == limb:
+            for k in range(robot.n_joints[limb] + 1):
+                most = max(most, distance(places[LEAVING, limb, k], places[ARRIVING, limb, k]))
+    return most
+
+
+@kernel
+def pass_at(p, only, share, work):
+    """Put limbs, and the base's corners with all of them, where they are at a share of their way."""
+    robot = robot_of(p)
+    for limb in range(p.n_limbs):
+        if only < 0 or only == limb:
+            for k in range(robot.n_joints[limb] + 1):
+                pass_point(work.places[:, limb], k, share)
+                pass_point(work.world[:, limb], k, share)
+    if only < 0:
+        for corner in range(8):
+            pass_point(work.corners, corner, share)
+
+
+@kernel
+def follow(p, only, work):
+    """Lessen the least gaps by those on the way of limbs from where they leave to where they arrive, every joint straight on.
+
+    Nothing moves farther than its way: where that is less than the least gap, all of it is clear. Else limbs are looked at again as soon as
+    they could touch, after no less than the robot's `fine`. The end is left to what comes next.
+
+    Args:
+        p: Parameters.
+        only: Limb that moves while all else stands, -1: all do, and the body.
+        work: Record of `WORK`, with the places of all limbs as they leave and arrive; `least` is lessened.
+    """
+    robot, least = robot_of(p), work.least
+    apart, moved, away = apart_at_most(robot, only, work.places), moved_at_most(robot, only, work.places), 0.0
+    if p.n_solids > 0:
+        away = moved_at_most(robot, only, work.world)
+        for corner in range(8 if only < 0 else 0):
+            away = max(away, distance(work.corners[LEAVING, corner], work.corners[ARRIVING, corner]))
+    share = 0.0
+    while True:
+        pass_at(p, only, share, work)
+        gap = limbs_gap(robot, work.places[PASSING], only)
+        least[OF_LIMBS] = min(least[OF_LIMBS], gap)
+        share_on = max(robot.fine, gap) / max(apart, TOLERANCE)
+        gap = body_gap(robot, work.places[PASSING], only, max(least[OF_BASE], moved))
+        least[OF_BASE] = min(least[OF_BASE], gap)
+        share_on = min(share_on, max(robot.fine, gap) / max(moved, TOLERANCE))
+        gap = solids_gap(p, work.world[PASSING], work.corners[PASSING], only, max(least[OF_SOLIDS], p.clearance + away))
+        least[OF_SOLIDS] = min(least[OF_SOLIDS], gap)
+        share += min(share_on, max(robot.fine, gap - p.clearance) / max(away, TOLERANCE))
+        if share >= 1.0:
+            return
+
+
+@kernel
+def forget_gaps(work):
+    """Have no gap be the least one yet."""
+    for k in range(3):
+        work.least[k] = UNLIMITED
