@@ -112,7 +112,7 @@ versions:  ## the fast tests on each Python that is supported, with the locked r
 	$(PYTHON) release/versions.py locked $(PYTHONS) -- -m "not slow and not long" $(TESTS)
 
 lowest:  ## the fast tests with the lowest versions that pyproject.toml allows, on the lowest Python
-	$(PYTHON) release/versions.py lowest $(firstword $(PYTHONS)) -- -m "not slow and not long" $(TESTS)
+	$(PYTHON) release/versions.py lowest $(firstword $(PYTHONS)) -- -m "not slow and not long and not locked" $(TESTS)
 
 # The lock file carries hashes and no address of a package index.
 COMPILE := $(BIN)/pip-compile --quiet --allow-unsafe --generate-hashes --strip-extras --no-header --no-emit-index-url --no-emit-find-links \

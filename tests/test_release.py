@@ -20,6 +20,7 @@ def make_bill(output: Path, *words: str) -> "subprocess.CompletedProcess[str]":
     return subprocess.run(command, capture_output=True, text=True, check=False)
 
 
+@pytest.mark.locked
 def test_the_bill_of_materials_has_every_locked_package_with_its_licence_and_hashes(tmp_path: Path) -> None:
     for name in ("bom.json", "again.json"):
         done = make_bill(tmp_path / name)
@@ -44,6 +45,7 @@ def test_the_bill_of_materials_has_every_locked_package_with_its_licence_and_has
     assert found["pkg:pypi/numpy@" + metadata.version("numpy")]["bom-ref"] in graph[about["bom-ref"]]
 
 
+@pytest.mark.locked
 def test_a_bill_of_what_is_not_installed_is_refused(tmp_path: Path) -> None:
     lock = tmp_path / "lock.txt"
     lock.write_text(LOCK.replace(f"numpy=={metadata.version('numpy')}", "numpy==1.0.0"))

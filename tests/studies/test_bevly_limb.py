@@ -181,6 +181,7 @@ def test_along_x_friction_bends_even_scct() -> None:
     assert abs(held) > 40.0 > abs(strong) > 20.0 > 6.0 > abs(smooth)
 
 
+@pytest.mark.locked
 def test_scct_bears_more_stiffness_along_y_than_the_transpose_before_it_cycles() -> None:
     numbers = told("fig-3-14").numbers
     for branch in BRANCHES:
