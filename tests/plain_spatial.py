@@ -1,6 +1,7 @@
 """Statics of a limbed robot in space a second time: matrices, potential energy and HiGHS; slow, obvious, nothing shared."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,6 +40,35 @@ def frames(chains: Chains, limb: int, posture: Floats, base: Floats) -> list[Flo
             here = here @ motion
         found.append(here)
     return found
+
+
+def joints(chains: Chains, limb: int, posture: Floats, base: Floats) -> Floats:
+    """Places of a limb's joints and tip [m], shape (joints + 1, 3)."""
+    return np.array([frame[:3, 3] for frame in frames(chains, limb, posture, base)])
+
+
+def links(chains: Chains, limb: int, at: Floats) -> list[tuple[Floats, float]]:
+    """Ends and radius of each link but the first, which lies beside others' [m]; `at` has a limb's joints."""
+    return [(at[k : k + 2], float(chains.radius[limb, k])) for k in range(1, int(chains.n_joints[limb]))]
+
+
+def limb_gap(chains: Chains, limb: int, at: Floats, others: Mapping[int, Floats]) -> float:
+    """Smallest gap between the links of a limb and those of others [m]."""
+    return min(
+        gap_of_segments(p, q) - a - b
+        for other, there in others.items()
+        for p, a in links(chains, limb, at)
+        for q, b in links(chains, other, there)
+    )
+
+
+def base_gap(chains: Chains, limb: int, at: Floats) -> float:
+    """Smallest gap between the base's box and a limb's links but the first two, joints in the base frame [m]."""
+    least = math.inf
+    for ends, radius in links(chains, limb, at)[1:]:
+        points = ends[0] + np.linspace(0.0, 1.0, 501)[:, None] * (ends[1] - ends[0])
+        least = min(least, float(depth_in_box(points, chains.base_half).min()) - radius)
+    return least
 
 
 def tip(chains: Chains, limb: int, posture: Floats, base: Floats) -> Floats:

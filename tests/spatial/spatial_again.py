@@ -1,4 +1,4 @@
-"""Keys, bounds and restored stances of a problem, by the kernels that planners call."""
+"""Tasks in space, and keys, bounds and restored stances of a problem, by the kernels that planners call."""
 
 from typing import Any
 
@@ -6,7 +6,9 @@ import numpy as np
 
 from clamber.compiled import kernel
 from clamber.families.spatial.planning.problem import SpatialProblem
+from clamber.families.spatial.planning.task import SpatialTask
 from clamber.planning.problem.family_kernels import bound, draft, key, restore, step
+from clamber.trials.work import open_work
 
 
 @kernel
@@ -39,6 +41,13 @@ def _verdicts(p, stances, codes, margins, reasons, made):  # type: ignore[no-unt
     for i in range(len(stances)):
         for k in range(len(codes)):
             reasons[i, k] = step(p, stances[i], codes[k], made[i, k], margins)
+
+
+def in_space(name: str, *overrides: str) -> SpatialTask:
+    """A task that is carried out in space: its own, or a climb's in a plane."""
+    item = open_work(name, None, overrides).item
+    assert isinstance(item, SpatialTask)
+    return item
 
 
 def keys_of(problem: SpatialProblem, stances: Any) -> Any:

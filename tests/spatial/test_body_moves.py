@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
-from spatial_again import verdicts_of
+from spatial_again import in_space, verdicts_of
 
 import plain_spatial as plain
 from clamber.families.spatial.planning.problem import SpatialProblem
@@ -15,20 +15,12 @@ from clamber.families.spatial.planning.task import SpatialTask
 from clamber.planning.beam import plan_beam
 from clamber.planning.problem.codes import HOLD, MOVE, pack
 from clamber.planning.problem.verdict import check_plan
-from clamber.trials.work import open_work
 from clamber.types import Floats
 
 PLACES = 11
 """Of a way that are looked at."""
 BENT = 0.005
 """What joints that turn lie beside the straight line between their places, of the robot's size at most."""
-
-
-def in_space(name: str, *overrides: str) -> SpatialTask:
-    """A task in space."""
-    work = open_work(name, None, overrides)
-    assert isinstance(work.item, SpatialTask)
-    return work.item
 
 
 def poses(before: Any, after: Any) -> list[Floats]:
@@ -59,31 +51,21 @@ def joints_on_way(task: SpatialTask, before: Any, after: Any) -> list[list[Float
             solved = least_squares(error, lean[:n], xtol=1e-12, ftol=1e-12, gtol=1e-12)
             assert np.abs(solved.fun).max() < 1e-5
             posture[limb, :n] = solved.x
-            at.append(np.array([frame[:3, 3] for frame in plain.frames(chains, limb, posture[limb], np.eye(4))]))
+            at.append(plain.joints(chains, limb, posture[limb], np.eye(4)))
         found.append(at)
     return found
 
 
 def between_limbs(task: SpatialTask, at: list[Floats]) -> float:
-    """Smallest gap between links of different limbs but their first [m]."""
-    chains = task.robot.chains
-    ends = [
-        [(limb, at[limb][k : k + 2], chains.radius[limb, k]) for k in range(1, int(n))]
-        for limb, n in enumerate(chains.n_joints)
-    ]
-    links = [link for limb in ends for link in limb]
-    return min(float(plain.gap_of_segments(p, q) - a - b) for i, p, a in links for j, q, b in links if i < j)
+    """Smallest gap between links of different limbs [m]."""
+    return min(
+        plain.limb_gap(task.robot.chains, limb, at[limb], dict(enumerate(at[:limb]))) for limb in range(1, len(at))
+    )
 
 
 def beside_base(task: SpatialTask, at: list[Floats]) -> float:
-    """Smallest gap between the base's box and links but the first two of each limb [m]."""
-    chains, least = task.robot.chains, np.inf
-    for limb, n in enumerate(chains.n_joints):
-        for k in range(2, int(n)):
-            points = at[limb][k] + np.linspace(0.0, 1.0, 201)[:, None] * (at[limb][k + 1] - at[limb][k])
-            away = float(plain.depth_in_box(points, chains.base_half).min()) - chains.radius[limb, k]
-            least = min(least, away)
-    return least
+    """Smallest gap between the base's box and links [m]."""
+    return min(plain.base_gap(task.robot.chains, limb, own) for limb, own in enumerate(at))
 
 
 GOALS = {

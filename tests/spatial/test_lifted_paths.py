@@ -100,34 +100,14 @@ def swings(name: str, *, whole: bool = False) -> list[Any]:
             place = start + eased((u - 0.15) / 0.7) * (end - start) + lifted
             posture = followed(chains, limb, posture, base, place, normal)
             way.append(posture)
-        mine = [joints(chains, limb, q, base) for q in [*way, after["q"][limb]]]
+        mine = [plain.joints(chains, limb, q, base) for q in [*way, after["q"][limb]]]
         others = {
-            other: joints(chains, other, before["q"][other], base)
+            other: plain.joints(chains, other, before["q"][other], base)
             for other in range(len(chains.limb_names))
             if other != limb
         }
         found.append((step.margins, base, limb, mine, others))
     return found
-
-
-def joints(chains: Chains, limb: int, posture: Floats, base: Floats) -> Floats:
-    """Places of a limb's joints and tip, world frame [m]."""
-    return np.array([frame[:3, 3] for frame in plain.frames(chains, limb, posture, base)])
-
-
-def links(chains: Chains, limb: int, at: Floats) -> Any:
-    """Ends and radius of each link but the first."""
-    return [(at[k : k + 2], chains.radius[limb, k]) for k in range(1, int(chains.n_joints[limb]))]
-
-
-def nearest(chains: Chains, limb: int, at: Floats, others: dict[int, Floats]) -> float:
-    """Smallest gap between the links of a limb and those of others [m]."""
-    return min(
-        float(plain.gap_of_segments(p, q) - a - b)
-        for other, there in others.items()
-        for p, a in links(chains, limb, at)
-        for q, b in links(chains, other, there)
-    )
 
 
 POINTS = 41
@@ -140,9 +120,9 @@ def nearest_between(chains: Chains, limb: int, way: list[Floats], others: dict[i
     mine, theirs = list[tuple[Floats, float]](), list[tuple[Floats, float]]()
     for start, end in pairwise(way):
         for u in np.arange(20) / 20:
-            mine += links(chains, limb, start + u * (end - start))
+            mine += plain.links(chains, limb, start + u * (end - start))
     for other, there in others.items():
-        theirs += links(chains, other, there)
+        theirs += plain.links(chains, other, there)
     there = np.concatenate([ends[0] + along * (ends[1] - ends[0]) for ends, _ in theirs])
     thick = np.repeat([radius for _, radius in theirs], POINTS)
     return min(
@@ -156,11 +136,11 @@ def test_gaps_between_limbs_are_the_least_on_the_way(name: str) -> None:
     chains = planned(name)[0].robot.chains
     for margins, _, limb, mine, others in swings(name):
         standing = [
-            nearest(chains, i, others[i], {j: at for j, at in others.items() if j < i})
+            plain.limb_gap(chains, i, others[i], {j: at for j, at in others.items() if j < i})
             for i in others
             if i > min(others)
         ]
-        least = min(standing + [nearest(chains, limb, at, others) for at in mine])
+        least = min(standing + [plain.limb_gap(chains, limb, at, others) for at in mine])
         between = min(least, nearest_between(chains, limb, mine, others))
         assert between - 0.005 <= margins["limb_limb"] <= least + NEAR
 
@@ -176,7 +156,8 @@ def test_limbs_do_not_pass_through_each_other_between_the_points_that_are_solved
 def test_limbs_come_nearest_to_each_other_on_the_way() -> None:
     chains = planned("stones-quadruped")[0].robot.chains
     gaps = [
-        [nearest(chains, limb, at, others) for at in mine] for _, _, limb, mine, others in swings("stones-quadruped")
+        [plain.limb_gap(chains, limb, at, others) for at in mine]
+        for _, _, limb, mine, others in swings("stones-quadruped")
     ]
     assert any(min(way[1:-2]) < min(way[0], way[-1]) - 0.01 for way in gaps)
 
@@ -188,11 +169,7 @@ def test_a_limb_is_as_far_from_the_base_as_it_comes_on_the_way(name: str) -> Non
         inverse = np.linalg.inv(base)
 
         def from_base(which: int, at: Floats, inverse: Floats = inverse) -> float:
-            own, least = at @ inverse[:3, :3].T + inverse[:3, 3], np.inf
-            for ends, radius in links(chains, which, own)[1:]:
-                points = ends[0] + np.linspace(0.0, 1.0, 501)[:, None] * (ends[1] - ends[0])
-                least = min(least, float(plain.depth_in_box(points, chains.base_half).min()) - radius)
-            return least
+            return plain.base_gap(chains, which, at @ inverse[:3, :3].T + inverse[:3, 3])
 
         least = min(from_base(which, at) for which, at in [(limb, at) for at in mine] + list(others.items()))
         ways = [start + u * (end - start) for start, end in pairwise(mine) for u in np.arange(1, 20) / 20]
@@ -211,7 +188,7 @@ def test_a_limb_is_as_far_from_a_bar_as_it_comes_on_the_way() -> None:
     for margins, _, limb, mine, others in swings("truss-inchworm"):
         least, longest = np.inf, 0.0
         for which, at in [(limb, at) for at in mine] + list(others.items()):
-            for k, (ends, radius) in enumerate(links(chains, which, at), 1):
+            for k, (ends, radius) in enumerate(plain.links(chains, which, at), 1):
                 length = float(np.linalg.norm(ends[1] - ends[0]))
                 part = 1.0 if k + 1 < chains.n_joints[which] else max(0.0, 1.0 - CLEAR * radius / length)
                 longest = max(longest, part * length)

@@ -5,31 +5,24 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from spatial_again import in_space
 
 from clamber.families.spatial.execution.course import Course
-from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import Deviations, SpatialFlaws
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
 from clamber.family import family_of
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problems import plan_family
 from clamber.tasks import load_task
-from clamber.trials.work import fit_family, open_work
+from clamber.trials.work import fit_family
 from clamber.units import GRAVITY
 
 GECKO = "gecko-climb"
 """Four limbs that grip, too weak for the control of climbers."""
 
 
-def in_space(*overrides: str) -> SpatialTask:
-    """The gecko's climb in space."""
-    work = open_work(GECKO, None, overrides)
-    assert isinstance(work.item, SpatialTask)
-    return work.item
-
-
 def test_robot_holds_and_goal_are_those_of_the_plane() -> None:
-    plane, task = load_task(GECKO), in_space()
+    plane, task = load_task(GECKO), in_space(GECKO)
     assert task.robot.chains.total_mass * GRAVITY == pytest.approx(plane.robot.weight, rel=1e-5)  # MJCF has six digits
     kept = [(hold.x, hold.y) for hold in plane.world.holds if hold.direction is None]
     assert np.allclose(task.world.places[:, (0, 2)], kept, atol=1e-8)
@@ -42,7 +35,7 @@ def test_robot_holds_and_goal_are_those_of_the_plane() -> None:
 
 def test_tips_are_where_they_are_in_the_plane() -> None:
     """At the start's joints, by MuJoCo: the chain is the plane's own model, the pose its turned one."""
-    plane, task = load_task(GECKO), in_space()
+    plane, task = load_task(GECKO), in_space(GECKO)
     start = plane_start_joints(plane)
     plan = Plan.of_codes(task, [])
     pose = Course.of(task, plan).start.pose
@@ -63,7 +56,7 @@ def plane_start_joints(plane: object) -> np.ndarray:
 
 def test_a_push_out_of_the_wall_is_borne_besides_the_weight() -> None:
     """Tips in one line would bear the weight, but the robot would swing about that line."""
-    plane, task = load_task(GECKO), in_space()
+    plane, task = load_task(GECKO), in_space(GECKO)
     assert task.rules.push == pytest.approx((0.0, -0.15 * plane.robot.weight, 0.0))
 
 
@@ -80,7 +73,7 @@ def test_what_has_no_counterpart_in_space_stays_with_climbers(key: str) -> None:
 @pytest.mark.parametrize(("out", "takes"), [(0.0, True), (0.014, True), (-0.014, True), (0.018, False)])
 def test_jaws_take_a_peg_anywhere_within_them_and_stay_there(out: float, takes: bool) -> None:
     """A peg that is `out` of the wall's plane [m] by other than was believed; jaws are 32 mm deep."""
-    task = in_space()
+    task = in_space(GECKO)
     start = Course.of(task, Plan.of_codes(task, [])).start
     places = task.world.places.copy()
     places[:, 1] -= out

@@ -192,6 +192,18 @@ def test_the_smallest_room_of_a_check_ends_the_judging_in_order() -> None:
         assert STANCE_CHECKS[reasons[0]].name == name
 
 
+def test_limbs_that_meet_end_the_judging_before_forces_are_asked_for() -> None:
+    chains, kind = MACHINES["feet"]
+    statics = Statics(chains, [kind] * len(chains.limb_names))
+    bodies, contacts = random_stances(statics, chains, 300, np.random.default_rng(19), spread=1.0)
+    judged, _ = statics.judge(bodies, contacts, rules_record(hard=0))
+    limb_limb, equilibrium = STANCE_CHECK["limb_limb"], STANCE_CHECK["equilibrium"]
+    meet = (judged["margins"][:, limb_limb] < -1e-6) & (judged["margins"][:, :limb_limb] > 1e-6).all(axis=1)
+    assert meet.any()
+    judged, reasons = statics.judge(bodies[meet], contacts[meet], rules_record(need=9.0, exact=0))
+    assert (reasons == limb_limb).all() and np.isnan(judged["margins"][:, equilibrium]).all()
+
+
 def dense_gap(a: Floats, b: Floats, c: Floats, d: Floats) -> float:
     """Distance of two segments by many points of both."""
     t = np.linspace(0.0, 1.0, 401)[:, None]

@@ -13,10 +13,22 @@ import numpy as np
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE
 from ..statics.checks import JUMP
-from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
+from ..statics.records import LIMBS
 from ..statics.stance_kernels import aim_limb, solve_limb
 from .judging_kernels import scratch_of
-from .poses_kernels import goals_of, holds_of, meets, outside, place_body, robot_of, yaw_missing
+from .poses_kernels import (
+    body_of,
+    goals_of,
+    holds_of,
+    meets,
+    outside,
+    place_body,
+    robot_of,
+    rules_of,
+    seeds_of,
+    work_of,
+    yaw_missing,
+)
 from .records import ACROSS, ALONG, AXES, HEIGHT, PITCH, ROLL, YAW
 from .step_kernels import MOVES, shift
 
@@ -163,10 +175,10 @@ def reach_holds(p, limb, poses, left, postures, s):
         s: Scratch, array of one stance.
     """
     robot, holds = robot_of(p), holds_of(p)
-    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    most = carray(pointer(p.rules_at), 1, RULES)[0].reach * robot.size + TOLERANCE
+    seeds = seeds_of(p)
+    body = body_of(p)
+    work = work_of(p)
+    most = rules_of(p).reach * robot.size + TOLERANCE
     for q in range(poses.shape[0]):
         for axis in range(AXES):
             s[0].pose[axis] = poses[q, axis]
@@ -240,7 +252,7 @@ def count_down(p, limb, left, postures, beside, exits, met, reached):
         reached: Scratch: pairs that it reaches, as pose times holds plus hold.
     """
     goal, holds = goals_of(p)[p.n_goals - 1], holds_of(p)
-    rules = carray(pointer(p.rules_at), 1, RULES)[0]
+    rules = rules_of(p)
     held = p.hard >> JUMP & 1
     jump, jump_moved = rules.jump if held else math.inf, rules.jump_moved if held else math.inf
     n, last = 0, 0

@@ -7,7 +7,7 @@ from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
 from ..statics.checks import LIMB_BODY, LIMB_LIMB
 from ..statics.kinematics_kernels import limb_frames
-from ..statics.records import BODY, CONTACT, JOINTS, JUDGED, LIMBS, RULES, SEEDS, WORK
+from ..statics.records import CONTACT, JOINTS, LIMBS
 from ..statics.stance_kernels import (
     aim_limb,
     judge,
@@ -26,13 +26,12 @@ from .passing_kernels import (
     OF_BASE,
     OF_LIMBS,
     OF_SOLIDS,
-    PASSING,
+    begin_way,
     follow,
-    forget_gaps,
     put_places,
     put_stance,
 )
-from .poses_kernels import holds_of, robot_of
+from .poses_kernels import body_of, contacts_of, holds_of, judged_of, robot_of, rules_of, seeds_of, work_of
 from .records import AXES, KNOWN, LIFTED
 from .solids_kernels import base_corners, solids_gap, tip_room
 
@@ -74,8 +73,8 @@ def set_contacts(p, s, swinging, moved):
         swinging: Limb that bears nothing though its tip is at its hold, -1: none.
         moved: Limb whose hold was another one before, -1: none.
     """
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+    body = body_of(p)
+    contacts = contacts_of(p)
     holds = holds_of(p)
     for k in range(9):
         body.rotation[k] = s.turn[k]
@@ -110,10 +109,10 @@ def know_posture(p, s, limb):
         same = same and known.pose[k] == s.pose[k]
     if not same:
         robot = robot_of(p)
-        work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-        contact = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)[limb]
-        aim_limb(carray(pointer(p.work_body_at), 1, BODY)[0], contact.place, contact.normal, limb, work)
-        known.error = solve_limb(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], limb, work)
+        work = work_of(p)
+        contact = contacts_of(p)[limb]
+        aim_limb(body_of(p), contact.place, contact.normal, limb, work)
+        known.error = solve_limb(robot, seeds_of(p), limb, work)
         known.limb = named
         for k in range(AXES):
             known.pose[k] = s.pose[k]
@@ -125,9 +124,9 @@ def know_posture(p, s, limb):
 @kernel
 def know_postures(p, s, out):
     """Put the postures of a placed stance where `judge` finds them, up to a limb that does not reach its hold; after `set_contacts`."""
-    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+    contacts = contacts_of(p)
     robot = robot_of(p)
-    most = carray(pointer(p.rules_at), 1, RULES)[0].reach * robot.size + TOLERANCE
+    most = rules_of(p).reach * robot.size + TOLERANCE
     for i in range(p.n_limbs):
         known = know_posture(p, s, i)
         contacts[i].known = 1
@@ -162,42 +161,34 @@ def judge_stance(p, before, s, swinging, moved, margins):
         margins: Output, all but `swing`.
     """
     set_contacts(p, s, swinging, moved)
-    judged = carray(pointer(p.work_judged_at), 2, JUDGED)
-    remember(p, before, judged[0])
+    remember(p, before)
+    judged = judged_of(p)
     out = judged[1]
     know_postures(p, s, out)
-    broken = judge(
-        robot_of(p),
-        carray(pointer(p.seeds_at), 1, SEEDS)[0],
-        carray(pointer(p.work_body_at), 1, BODY)[0],
-        carray(pointer(p.work_contacts_at), LIMBS, CONTACT),
-        judged[0],
-        carray(pointer(p.rules_at), 1, RULES)[0],
-        out,
-        carray(pointer(p.work_statics_at), 1, WORK)[0],
-    )
+    broken = judge(robot_of(p), seeds_of(p), body_of(p), contacts_of(p), judged[0], rules_of(p), out, work_of(p))
     for k in range(CLEARANCE):
         margins[k] = out.margins[k]
     keep_judged(p, s, out, swinging < 0)
     if broken >= 0:
         return broken
-    margins[CLEARANCE] = judge_clearance(p, s, out)
+    margins[CLEARANCE] = judge_clearance(p, out)
     return CLEARANCE if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE else -1
 
 
 @kernel
-def judge_clearance(p, s, judged):
-    """Least distance of links and of the base's corners from solids in a stance that was judged, less the clearance asked for [m]."""
+def judge_clearance(p, judged):
+    """Least distance of links and of the base's corners from solids in the stance that was judged, less the clearance asked for [m]."""
     if p.n_solids == 0:
         return UNLIMITED
-    corners = carray(pointer(p.work_statics_at), 1, WORK)[0].corners[ARRIVING]
-    base_corners(robot_of(p), s.place, s.turn, corners)
+    corners = work_of(p).corners[ARRIVING]
+    base_corners(robot_of(p), body_of(p), corners)
     return solids_gap(p, judged.origin, corners, -1, UNLIMITED) - p.clearance
 
 
 @inlined
-def remember(p, before, last):
+def remember(p, before):
     """Put the posture of a stance where `judge` finds the one before."""
+    last = judged_of(p)[0]
     last.judged = before.postured
     for i in range(p.n_limbs):
         for k in range(JOINTS):
@@ -234,23 +225,22 @@ def judge_lifted(p, before, limb):
             lifted.verdict[i] = -2
     if lifted.verdict[limb] == -2:
         robot = robot_of(p)
-        rules = carray(pointer(p.rules_at), 1, RULES)[0]
-        judged = carray(pointer(p.work_judged_at), 2, JUDGED)
-        body = carray(pointer(p.work_body_at), 1, BODY)[0]
-        contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
-        work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+        body = body_of(p)
+        contacts = contacts_of(p)
+        rules = rules_of(p)
+        judged = judged_of(p)
+        out = judged[1]
+        work = work_of(p)
         set_contacts(p, before, limb, -1)
         for i in range(p.n_limbs):
             contacts[i].known = 1
             contacts[i].error = 0.0
             for k in range(JOINTS):
-                judged[1].posture[i, k] = before.q[i, k]
-        remember(p, before, judged[0])
-        judge_postures(
-            robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, judged[1], work
-        )
+                out.posture[i, k] = before.q[i, k]
+        remember(p, before)
+        judge_postures(robot, seeds_of(p), body, contacts, judged[0], rules, out, work)
         weigh(robot, body, work)
-        lifted.verdict[limb] = judge_forces(robot, rules, judged[1], work)
+        lifted.verdict[limb] = judge_forces(robot, rules, out, work)
     return lifted.verdict[limb]
 
 
@@ -262,19 +252,20 @@ def judge_taken(p, before, s, limb, margins):
         The first violated hard check, or -1; `margins` up to it are written as far as the verdict needs them.
     """
     set_contacts(p, s, -1, limb)
-    judged = carray(pointer(p.work_judged_at), 2, JUDGED)
-    remember(p, before, judged[0])
-    out = judged[1]
-    know_postures(p, s, out)
+    remember(p, before)
     robot = robot_of(p)
-    rules = carray(pointer(p.rules_at), 1, RULES)[0]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    contacts = carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    broken = judge_shape(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, out, work)
+    seeds = seeds_of(p)
+    body = body_of(p)
+    contacts = contacts_of(p)
+    rules = rules_of(p)
+    judged = judged_of(p)
+    out = judged[1]
+    work = work_of(p)
+    know_postures(p, s, out)
+    broken = judge_shape(robot, seeds, body, contacts, judged[0], rules, out, work)
     if broken < 0 and out.judged and p.n_solids > 0:
         place_in_world(robot, body, work, out)
-        margins[CLEARANCE] = judge_clearance(p, s, out)
+        margins[CLEARANCE] = judge_clearance(p, out)
         if p.hard >> CLEARANCE & 1 and margins[CLEARANCE] < -TOLERANCE:
             broken = CLEARANCE
     if broken >= 0:
@@ -287,7 +278,7 @@ def judge_taken(p, before, s, limb, margins):
         return broken
     set_contacts(p, s, -1, limb)
     know_postures(p, s, out)
-    judge_postures(robot, carray(pointer(p.seeds_at), 1, SEEDS)[0], body, contacts, judged[0], rules, out, work)
+    judge_postures(robot, seeds, body, contacts, judged[0], rules, out, work)
     weigh(robot, body, work)
     work.bears[limb] = 0
     broken = judge_forces(robot, rules, out, work)
@@ -332,9 +323,9 @@ def judge_move(p, before, s, margins):
     Returns:
         The first violated hard check, or -1.
     """
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    put_stance(p, ARRIVING, s.place, s.turn, work)
+    work = work_of(p)
+    body = body_of(p)
+    put_stance(p, ARRIVING, work)
     for a in range(9):
         body.rotation[a] = before.turn[a]
     for a in range(3):
@@ -343,8 +334,8 @@ def judge_move(p, before, s, margins):
         for k in range(JOINTS):
             work.posture[limb, k] = before.q[limb, k]
         limb_frames(robot_of(p), limb, work)
-    put_stance(p, LEAVING, before.place, before.turn, work)
-    forget_gaps(work)
+    put_stance(p, LEAVING, work)
+    begin_way(p, work)
     follow(p, -1, work)
     return take_gaps(p, work.least, margins)
 
@@ -371,18 +362,14 @@ def judge_swing(p, s, limb, hold, margins):
         for k in range(3):
             swing[end].place[k] = which.place[k]
             swing[end].normal[k] = which.normal[k]
-    judged = carray(pointer(p.work_judged_at), 2, JUDGED)[0]
+    before = judged_of(p)[0]
+    work = work_of(p)
     for k in range(JOINTS):
-        judged.posture[limb, k] = s.q[limb, k]
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
-    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
-    margins[SWING] = swing_reach(robot, seeds, body, limb, swing, judged, p.lift, work)
+        before.posture[limb, k] = s.q[limb, k]
+    margins[SWING] = swing_reach(robot, seeds_of(p), body_of(p), limb, swing, before, p.lift, work)
     if margins[SWING] < -TOLERANCE:
         return SWING if p.hard >> SWING & 1 else -1
-    forget_gaps(work)
-    for other in range(p.n_limbs):
-        put_places(p, PASSING, other, work.origin[other], work)
+    begin_way(p, work)
     for point in range(work.n_way):
         put_places(p, LEAVING, limb, work.way[point], work)
         put_places(p, ARRIVING, limb, work.way[min(point + 1, work.n_way - 1)], work)

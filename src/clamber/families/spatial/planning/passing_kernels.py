@@ -2,12 +2,11 @@
 
 import math
 
-from ....compiled import carray, inlined, kernel, pointer
+from ....compiled import inlined, kernel
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ..statics.collision_kernels import body_gap, limbs_gap
-from ..statics.records import BODY
 from ..statics.stance_kernels import limb_in_world
-from .poses_kernels import robot_of
+from .poses_kernels import body_of, robot_of
 from .solids_kernels import base_corners, solids_gap
 
 LEAVING, ARRIVING, PASSING = range(3)
@@ -25,15 +24,24 @@ def put_places(p, which, limb, origin, work):
         for a in range(3):
             places[k, a] = origin[k, a]
     if p.n_solids > 0:
-        limb_in_world(robot, carray(pointer(p.work_body_at), 1, BODY)[0], limb, places, work.world[which, limb])
+        limb_in_world(robot, body_of(p), limb, places, work.world[which, limb])
 
 
 @kernel
-def put_stance(p, which, place, turn, work):
+def put_stance(p, which, work):
     """Keep where the joints of all limbs, as solved, and the base's corners are, for the pose of the body that is set."""
     for limb in range(p.n_limbs):
         put_places(p, which, limb, work.origin[limb], work)
-    base_corners(robot_of(p), place, turn, work.corners[which])
+    if p.n_solids > 0:
+        base_corners(robot_of(p), body_of(p), work.corners[which])
+
+
+@kernel
+def begin_way(p, work):
+    """Have no gap be the least one yet, and put all limbs where they stand, as solved: those that a way does not move stay there."""
+    for k in range(3):
+        work.least[k] = UNLIMITED
+    put_stance(p, PASSING, work)
 
 
 @inlined
@@ -84,8 +92,9 @@ def pass_at(p, only, share, work):
         if only < 0 or only == limb:
             for k in range(robot.n_joints[limb] + 1):
                 pass_point(work.places[:, limb], k, share)
-                pass_point(work.world[:, limb], k, share)
-    if only < 0:
+                if p.n_solids > 0:
+                    pass_point(work.world[:, limb], k, share)
+    if only < 0 and p.n_solids > 0:
         for corner in range(8):
             pass_point(work.corners, corner, share)
 
@@ -122,10 +131,3 @@ def follow(p, only, work):
         share += min(share_on, max(robot.fine, gap - p.clearance) / max(away, TOLERANCE))
         if share >= 1.0:
             return
-
-
-@kernel
-def forget_gaps(work):
-    """Have no gap be the least one yet."""
-    for k in range(3):
-        work.least[k] = UNLIMITED

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
-from ..statics.records import ROBOT
+from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, ROBOT, RULES, SEEDS, WORK
 from ..world.guide import GRAIN, NODE
 from .records import ACROSS, ALONG, GOAL, HEIGHT, HOLD, PITCH, ROLL, YAW
 
@@ -29,6 +29,42 @@ def robot_of(p):
 def holds_of(p):
     """Holds of the world."""
     return carray(pointer(p.holds_at), p.n_holds, HOLD)
+
+
+@inlined
+def seeds_of(p):
+    """Where searches of postures begin."""
+    return carray(pointer(p.seeds_at), 1, SEEDS)[0]
+
+
+@inlined
+def rules_of(p):
+    """What stances are judged by."""
+    return carray(pointer(p.rules_at), 1, RULES)[0]
+
+
+@inlined
+def body_of(p):
+    """Pose of the base that the thread judges, and what acts on it."""
+    return carray(pointer(p.work_body_at), 1, BODY)[0]
+
+
+@inlined
+def contacts_of(p):
+    """Contacts of the limbs of the stance that the thread judges."""
+    return carray(pointer(p.work_contacts_at), LIMBS, CONTACT)
+
+
+@inlined
+def judged_of(p):
+    """What the thread found of the stance before, and of the one that it judges."""
+    return carray(pointer(p.work_judged_at), 2, JUDGED)
+
+
+@inlined
+def work_of(p):
+    """Scratch of the thread for statics."""
+    return carray(pointer(p.work_statics_at), 1, WORK)[0]
 
 
 @kernel

@@ -42,8 +42,9 @@ def limb_solids_gap(robot, solids, i, origin, gap):
 
 
 @kernel
-def base_corners(robot, place, turn, to):
-    """Write the corners of the base's box in the world frame [m], shape (8, 3), for the pose of a stance."""
+def base_corners(robot, body, to):
+    """Write the corners of the base's box in the world frame [m], shape (8, 3), for a pose of the body (`BODY`)."""
+    place, turn = body.place, body.rotation
     for corner in range(8):
         x = robot.base_half[0] * (1 - 2 * (corner & 1))
         y = robot.base_half[1] * (1 - (corner & 2))

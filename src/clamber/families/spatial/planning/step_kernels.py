@@ -10,12 +10,23 @@ import numpy as np
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import UNLIMITED
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, pack_code, unpack
-from ..statics.records import BODY, LIMBS, RULES, SEEDS, WORK
+from ..statics.records import LIMBS
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
 from .judging_kernels import SCRATCH, copy, judge_move, judge_stance, judge_swing, judge_taken, scratch_of
-from .poses_kernels import away_from, goals_of, holds_of, meets, place_body, robot_of
+from .poses_kernels import (
+    away_from,
+    body_of,
+    goals_of,
+    holds_of,
+    meets,
+    place_body,
+    robot_of,
+    rules_of,
+    seeds_of,
+    work_of,
+)
 from .records import AXES, HEIGHT, PITCH, ROLL, YAW
 
 NEAR = 2 * AXES
@@ -48,11 +59,11 @@ def holds_near(p, s, limb, codes, ranked):
     Best is what has a posture near the nominal one and lies towards the goal; `ranked` is scratch as long as the number of holds to list.
     """
     robot, holds = robot_of(p), holds_of(p)
-    seeds = carray(pointer(p.seeds_at), 1, SEEDS)[0]
+    seeds = seeds_of(p)
     goal = goals_of(p)[min(s.stage, p.n_goals - 1)]
     most, n = ranked.shape[0], 0
-    body = carray(pointer(p.work_body_at), 1, BODY)[0]
-    work = carray(pointer(p.work_statics_at), 1, WORK)[0]
+    body = body_of(p)
+    work = work_of(p)
     for k in range(9):
         body.rotation[k] = s.turn[k]
     for k in range(3):
@@ -90,7 +101,7 @@ def holds_near(p, s, limb, codes, ranked):
 @kernel
 def take_hold(p, before, limb, after, margins):
     """Judge a limb that swings from its hold to another: without it, along its path, without it where it goes, and with it."""
-    if not carray(pointer(p.rules_at), 1, RULES)[0].exact:
+    if not rules_of(p).exact:
         return judge_taken(p, before, after, limb, margins)
     least = scratch_of(p)[LEAST : LEAST + SWING + 1]
     for k in range(SWING + 1):
