@@ -7,7 +7,7 @@ from typing import Self
 from ....control.whole_body.programme import Gains
 from ....units import GRAVITY
 from ..robot.robot import SpatialRobot
-from ..statics.records import stretched
+from ..statics.stretch import stretched
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

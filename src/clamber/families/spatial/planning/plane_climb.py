@@ -17,7 +17,7 @@ from ....regular_files import write_atomically
 from ....tasks.imported import PlaneClimb
 from ....tasks.regions import GoalBox
 from ....types import Json
-from ..robot.robot import FAMILY, whole_document
+from ..robot.robot import FAMILY, STRETCH, whole_document
 from .task import SpatialTask, build_task
 
 GRIP: Final = "grip"
@@ -95,6 +95,7 @@ def _robot(climb: PlaneClimb) -> Json:
         "speed": f"{climb.speed:.9g} rad/s",
         "torque_share": 1.0,
         "joint_room": ROOM,
+        "stretch": STRETCH,
         "limb": limbs,
         "contacts": {GRIP: contact},
     }

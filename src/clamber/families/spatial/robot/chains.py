@@ -49,6 +49,8 @@ class Chains:
     """Centre of that mass, base frame [m], shape (3,)."""
     base_half: Floats
     """Half extents of the box about the base frame's origin that stands for the base's body [m], shape (3,)."""
+    stretch: float = 1.0
+    """Part of their full length that limbs have in a stance at most [-]."""
 
     @property
     def total_mass(self) -> float:

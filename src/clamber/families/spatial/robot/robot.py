@@ -30,6 +30,9 @@ SCHEMA: Final = "clamber-robot-1"
 FAMILY: Final = "spatial"
 MAX_LIMBS: Final = 8
 """Limb slots of a stance."""
+STRETCH: Final = 0.98
+"""Part of its full length that a limb is to be stretched to at most where nobody knows better [-]: a knee between links of one length stays
+bent by 23 degrees, more than what is off under the usual noise takes away."""
 
 
 Share = Annotated[float, Quantity("ratio", above=0.0, at_most=1.0)]
@@ -80,6 +83,9 @@ class RobotSpec:
     """Part of each motor's largest torque that plans use; what carries them out may use all of it [-]."""
     joint_room: NonNegativeAngle = 0.0
     """Turning joints stay so far inside their limits [rad]."""
+    stretch: Share = 1.0
+    """Part of a limb's full length that stances ask for at most [-] (`statics.stretch`). Where a knee is all but straight, a millimetre
+    decides to which side it gives way, and whether a hold is within reach at all."""
     payload: Payload | None = None
     half: tuple[NonNegativeLength, NonNegativeLength, NonNegativeLength] | None = None
     """Half extents of the box that stands for the base's body [m]; None: as large as its shapes."""
@@ -214,7 +220,14 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
         if name not in moving
     }
     payload = robot.payload or Payload(mass=0.0)
-    choice = Choice(limbs=limbs, held=held, payload=payload.mass, payload_at=payload.at, half=robot.half)
+    choice = Choice(
+        limbs=limbs,
+        held=held,
+        payload=payload.mass,
+        payload_at=payload.at,
+        half=robot.half,
+        stretch=robot.stretch,
+    )
     chains = chains_of(robot.name, tree, choice)
     if not chains.base_mass >= 0.0 or chains.total_mass <= 0.0:
         raise document.problem("model", "must have links with a mass")

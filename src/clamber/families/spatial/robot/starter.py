@@ -13,7 +13,7 @@ from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
 from .finding import Chain, Found, find_limbs, limb_names
 from .model import Model, read_model
-from .robot import FAMILY, MAX_LIMBS, SCHEMA
+from .robot import FAMILY, MAX_LIMBS, SCHEMA, STRETCH
 from .tips import guess_nominal, guess_tip
 from .tree import Joint, Posture, Tree, rooted_at
 
@@ -121,6 +121,7 @@ class _Writer:
         room = 0.0 if narrow else ROOM
         self.room = room
         self._state("joint_room", f"{room / DEGREE:g} deg", f"{GUESS}: what joints keep from their limits")
+        self._state("stretch", STRETCH, f"{GUESS}: of a limb's full length that plans use, so that knees stay bent")
 
     def _held(self, joint: Joint) -> float:
         """Where a joint of the trunk is held."""

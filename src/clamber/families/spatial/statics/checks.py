@@ -5,7 +5,11 @@ from typing import Final
 from ....planning.problem.check import Check
 
 STANCE_CHECKS: Final[tuple[Check, ...]] = (
-    Check("reach", "m", "distance that counts as reached, less what inverse kinematics leaves between tip and hold"),
+    Check(
+        "reach",
+        "m",
+        "distance that counts as reached, less what is left between tip and hold, or what a limb is stretched too far",
+    ),
     Check("joint", "rad", "distance of a joint from its nearer limit, less the room that is asked for"),
     Check("tilt", "rad", "tilt that a contact bears, less the angle of end effector and surface; over limbs that bear"),
     Check("jump", "rad", "largest change of a joint that is allowed, less the change from the posture before"),

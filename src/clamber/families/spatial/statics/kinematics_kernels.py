@@ -157,3 +157,16 @@ def reach_point(robot, limb, work, near):
     ey = work.target[limb, 1] - origin[n, 1]
     ez = work.target[limb, 2] - origin[n, 2]
     return math.sqrt(ex * ex + ey * ey + ez * ez)
+
+
+@kernel
+def stretched_beyond(robot, limb, work):
+    """How much farther from its joints a limb's tip is than it may be [m], not below 0."""
+    n, beyond = robot.n_joints[limb], 0.0
+    tip = work.origin[limb, n]
+    for k in range(n - 1):
+        if robot.farthest[limb, k] < math.inf:
+            joint = work.origin[limb, k]
+            x, y, z = tip[0] - joint[0], tip[1] - joint[1], tip[2] - joint[2]
+            beyond = max(beyond, math.sqrt(x * x + y * y + z * z) - robot.farthest[limb, k])
+    return beyond

@@ -7,6 +7,7 @@ import numpy as np
 from ....types import Records
 from ..robot.chains import Chains
 from ..robot.contacts import MOST_ROWS, Contact
+from .stretch import farthest_tips, stretched
 
 LIMBS = 8
 """Limb slots; a robot uses the first n."""
@@ -44,6 +45,7 @@ ROBOT = np.dtype(
         ("base_half", "f8", (3,)),
         ("total_mass", "f8"),
         ("size", "f8"),  # length of the longest limb when stretched
+        ("farthest", "f8", (LIMBS, JOINTS)),  # of a tip from a joint of its limb that a stance may ask for
         (
             "fine",
             "f8",
@@ -226,6 +228,7 @@ def robot_record(chains: Chains, contacts: Sequence[Contact]) -> Records:
     row["fine"] = max(min(thinnest, row["size"]), FINEST * row["size"])
     for limb, contact in enumerate(contacts):
         rows = contact.rows
+        row["farthest"][limb, : chains.n_joints[limb]] = farthest_tips(chains, limb)
         row["components"][limb] = contact.components
         row["aligned"][limb] = contact.aligned and chains.n_joints[limb] >= 5
         row["n_rows"][limb] = len(rows)
@@ -237,11 +240,3 @@ def robot_record(chains: Chains, contacts: Sequence[Contact]) -> Records:
         row["friction"][limb], row["pull"][limb] = contact.friction, contact.pull
         row["tilt"][limb], row["tilt_loss"][limb] = contact.tilt, contact.tilt_loss
     return record
-
-
-def stretched(chains: Chains, limb: int) -> float:
-    """Length of a limb from its first joint to its tip when no joint bends it, slides run out [m]."""
-    n = int(chains.n_joints[limb])
-    lengths = float(np.linalg.norm(chains.offset[limb, 1 : n + 1], axis=1).sum())
-    slides = chains.sliding[limb, :n] * np.maximum(abs(chains.lower[limb, :n]), abs(chains.upper[limb, :n]))
-    return lengths + float(slides.sum())

@@ -9,7 +9,7 @@ from .checks import EQUILIBRIUM, JOINT, JUMP, LIMB_BODY, LIMB_LIMB, REACH, TILT
 from .collision_kernels import body_gap, limbs_gap
 from .equilibrium_kernels import balance_forces, contact_frame, fill_levers
 from .gravity_kernels import base_weight, limb_weight
-from .kinematics_kernels import limb_frames, reach_point, tip_jacobian
+from .kinematics_kernels import limb_frames, reach_point, stretched_beyond, tip_jacobian
 from .records import CHECKS_OF_STANCE, PATH_PARTS, PATH_POINTS
 from .seeds_kernels import seed_beside, seed_index, take_seed
 
@@ -53,7 +53,8 @@ def solve_limb(robot, tables, limb, work):
     """Posture of a limb for its target in `work`, from the table's seed alone.
 
     Returns:
-        Error left [m] (`reach_point`, `reach_aligned`); infinity where the table has no seed.
+        Error left [m] (`reach_point`, `reach_aligned`), or what the tip is farther from a joint than it may be, if that is more; infinity
+        where the table has no seed.
     """
     index = seed_index(robot, tables, limb, work)
     if index < 0:
@@ -61,7 +62,8 @@ def solve_limb(robot, tables, limb, work):
     near = NEAR * robot.size
     take_seed(robot, tables, limb, index, work)
     if not robot.aligned[limb]:
-        return reach_point(robot, limb, work, near)
+        error = reach_point(robot, limb, work, near)
+        return max(error, stretched_beyond(robot, limb, work))
     error = reach_aligned(robot, limb, work, near)
     for side in range(1, 1 + OTHER_SEEDS):  # most often a wrist at its limit, which has another branch beside it
         if error < near:
@@ -70,7 +72,7 @@ def solve_limb(robot, tables, limb, work):
         if other >= 0:
             take_seed(robot, tables, limb, other, work)
             error = reach_aligned(robot, limb, work, near)
-    return error
+    return max(error, stretched_beyond(robot, limb, work))
 
 
 @kernel
