@@ -303,7 +303,7 @@ def lessen(margins, check, margin):
 @kernel
 def take_gaps(p, least, margins):
     """Take the least gaps of a way where they are less than the margins of their checks; the first hard one violated, or -1."""
-    lessen(margins, LIMB_LIMB, least[OF_LIMBS])
+    lessen(margins, LIMB_LIMB, least[OF_LIMBS] - robot_of(p).limb_room)
     lessen(margins, LIMB_BODY, least[OF_BASE])
     lessen(margins, CLEARANCE, least[OF_SOLIDS] - p.clearance)
     for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):

@@ -103,8 +103,8 @@ def pass_at(p, only, share, work):
 def follow(p, only, work):
     """Lessen the least gaps by those on the way of limbs from where they leave to where they arrive, every joint straight on.
 
-    Nothing moves farther than its way: where that is less than the least gap, all of it is clear. Else limbs are looked at again as soon as
-    they could touch, after no less than the robot's `fine`. The end is left to what comes next.
+    Nothing moves farther than its way: where that is less than what the least gap has to spare, all of it is clear. Else limbs are looked
+    at again as soon as they could be too near, after no less than the robot's `fine`. The end is left to what comes next.
 
     Args:
         p: Parameters.
@@ -122,7 +122,7 @@ def follow(p, only, work):
         pass_at(p, only, share, work)
         gap = limbs_gap(robot, work.places[PASSING], only)
         least[OF_LIMBS] = min(least[OF_LIMBS], gap)
-        share_on = max(robot.fine, gap) / max(apart, TOLERANCE)
+        share_on = max(robot.fine, gap - robot.limb_room) / max(apart, TOLERANCE)
         gap = body_gap(robot, work.places[PASSING], only, max(least[OF_BASE], moved))
         least[OF_BASE] = min(least[OF_BASE], gap)
         share_on = min(share_on, max(robot.fine, gap) / max(moved, TOLERANCE))

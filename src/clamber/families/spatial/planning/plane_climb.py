@@ -17,7 +17,7 @@ from ....regular_files import write_atomically
 from ....tasks.imported import PlaneClimb
 from ....tasks.regions import GoalBox
 from ....types import Json
-from ..robot.robot import FAMILY, STRETCH, whole_document
+from ..robot.robot import FAMILY, LIMB_ROOM, STRETCH, whole_document
 from .task import SpatialTask, build_task
 
 GRIP: Final = "grip"
@@ -96,6 +96,7 @@ def _robot(climb: PlaneClimb) -> Json:
         "torque_share": 1.0,
         "joint_room": ROOM,
         "stretch": STRETCH,
+        "limb_room": LIMB_ROOM,
         "limb": limbs,
         "contacts": {GRIP: contact},
     }

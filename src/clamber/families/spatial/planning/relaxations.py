@@ -29,6 +29,8 @@ def spatial_relaxations(task: SpatialTask) -> Iterator[Relaxation]:
         yield from _strengths(task)
     if "reach" in rules.hard and robot.stretch < 1.0:
         yield key_dial("robot.stretch", robot.stretch, most=1.0, unit="", per_unit=1000, nested=True)
+    if "limb_limb" in rules.hard and robot.limb_room > 0.0:
+        yield key_dial("robot.limb_room", robot.limb_room / MM, most=0.0, unit="mm", per_unit=1, nested=True)
     if "jump" in rules.hard:
         yield key_dial("rules.jump", rules.jump / DEGREE, most=TURN, unit="deg", per_unit=1, nested=True)
     if "clearance" in rules.hard and rules.clearance > 0.0:

@@ -49,7 +49,8 @@ class Choice:
     half: tuple[float, float, float] | None = None
     """Half extents of the base's box [m]; None: as its shapes have it."""
     stretch: float = 1.0
-    """As that of `Chains`."""
+    limb_room: float = 0.0
+    """As those of `Chains`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -120,6 +121,7 @@ def chains_of(name: str, tree: Tree, choice: Choice) -> Chains:
         base_centre=base_moment / base_mass if base_mass > 0.0 else np.zeros(3),
         base_half=_half(posture, base) if choice.half is None else np.array(choice.half),
         stretch=choice.stretch,
+        limb_room=choice.limb_room,
     )
 
 

@@ -51,6 +51,8 @@ class Chains:
     """Half extents of the box about the base frame's origin that stands for the base's body [m], shape (3,)."""
     stretch: float = 1.0
     """Part of their full length that limbs have in a stance at most [-]."""
+    limb_room: float = 0.0
+    """That links of different limbs keep from each other [m]."""
 
     @property
     def total_mass(self) -> float:

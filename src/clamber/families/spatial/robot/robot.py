@@ -33,6 +33,8 @@ MAX_LIMBS: Final = 8
 STRETCH: Final = 0.98
 """Part of its full length that a limb is to be stretched to at most where nobody knows better [-]: a knee between links of one length stays
 bent by 23 degrees, more than what is off under the usual noise takes away."""
+LIMB_ROOM: Final = "10 mm"
+"""That links of different limbs are to keep from each other where nobody knows better: twice what holds are off under the usual noise."""
 
 
 Share = Annotated[float, Quantity("ratio", above=0.0, at_most=1.0)]
@@ -86,6 +88,8 @@ class RobotSpec:
     stretch: Share = 1.0
     """Part of a limb's full length that stances ask for at most [-] (`statics.stretch`). Where a knee is all but straight, a millimetre
     decides to which side it gives way, and whether a hold is within reach at all."""
+    limb_room: NonNegativeLength = 0.0
+    """Links of different limbs keep so far apart [m]: holds are not where they are believed."""
     payload: Payload | None = None
     half: tuple[NonNegativeLength, NonNegativeLength, NonNegativeLength] | None = None
     """Half extents of the box that stands for the base's body [m]; None: as large as its shapes."""
@@ -227,6 +231,7 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
         payload_at=payload.at,
         half=robot.half,
         stretch=robot.stretch,
+        limb_room=robot.limb_room,
     )
     chains = chains_of(robot.name, tree, choice)
     if not chains.base_mass >= 0.0 or chains.total_mass <= 0.0:

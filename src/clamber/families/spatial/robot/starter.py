@@ -13,7 +13,7 @@ from ....types import Floats, Json
 from ....units import DEGREE, GRAVITY
 from .finding import Chain, Found, find_limbs, limb_names
 from .model import Model, read_model
-from .robot import FAMILY, MAX_LIMBS, SCHEMA, STRETCH
+from .robot import FAMILY, LIMB_ROOM, MAX_LIMBS, SCHEMA, STRETCH
 from .tips import guess_nominal, guess_tip
 from .tree import Joint, Posture, Tree, rooted_at
 
@@ -122,6 +122,7 @@ class _Writer:
         self.room = room
         self._state("joint_room", f"{room / DEGREE:g} deg", f"{GUESS}: what joints keep from their limits")
         self._state("stretch", STRETCH, f"{GUESS}: of a limb's full length that plans use, so that knees stay bent")
+        self._state("limb_room", LIMB_ROOM, f"{GUESS}: what links of different limbs keep from each other")
 
     def _held(self, joint: Joint) -> float:
         """Where a joint of the trunk is held."""

@@ -14,7 +14,7 @@ STANCE_CHECKS: Final[tuple[Check, ...]] = (
     Check("tilt", "rad", "tilt that a contact bears, less the angle of end effector and surface; over limbs that bear"),
     Check("jump", "rad", "largest change of a joint that is allowed, less the change from the posture before"),
     Check("limb_limb", "m", "gap between the links of two limbs, less the room that is asked for"),
-    Check("limb_body", "m", "gap between links and the base's box, less the room that is asked for"),
+    Check("limb_body", "m", "gap between links and the base's box"),
     Check("equilibrium", "1", "share of all limits that the best distribution of forces leaves free, less the need"),
     Check("torque", "N m", "motor limit less torque, smallest over the joints; a force [N] for slides"),
     Check("slip", "N", "tangential force that a contact could take besides, smallest over contacts"),

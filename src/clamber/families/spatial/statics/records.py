@@ -45,6 +45,7 @@ ROBOT = np.dtype(
         ("base_half", "f8", (3,)),
         ("total_mass", "f8"),
         ("size", "f8"),  # length of the longest limb when stretched
+        ("limb_room", "f8"),  # that links of different limbs keep from each other
         ("farthest", "f8", (LIMBS, JOINTS)),  # of a tip from a joint of its limb that a stance may ask for
         (
             "fine",
@@ -224,6 +225,7 @@ def robot_record(chains: Chains, contacts: Sequence[Contact]) -> Records:
     for name in ("base_mass", "base_centre", "base_half", "total_mass"):
         row[name] = getattr(chains, name)
     row["size"] = max(stretched(chains, limb) for limb in range(n))
+    row["limb_room"] = chains.limb_room
     thinnest = min(chains.radius[limb, BESIDE : chains.n_joints[limb]].min(initial=np.inf) for limb in range(n))
     row["fine"] = max(min(thinnest, row["size"]), FINEST * row["size"])
     for limb, contact in enumerate(contacts):

@@ -169,7 +169,7 @@ def judge_shape(robot, tables, body, contacts, before, rules, out, work):
             first = check
     if first >= 0 and not rules.exact:
         return first
-    margins[LIMB_LIMB] = limbs_gap(robot, work.origin, -1)
+    margins[LIMB_LIMB] = limbs_gap(robot, work.origin, -1) - robot.limb_room
     if violated(rules, margins, LIMB_LIMB) and first < 0:
         first = LIMB_LIMB
         if not rules.exact:
