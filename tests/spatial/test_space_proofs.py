@@ -130,13 +130,17 @@ def test_quick_verdicts_are_those_of_whole_judgements(name: str) -> None:
     assert 0.05 < (quick < 0).mean() < 0.95
 
 
-def test_motors_that_are_too_weak_are_told_with_what_would_do() -> None:
-    it = task("patch-gripper", *SMALL, "robot.torque_share=0.1")
+@pytest.mark.parametrize(
+    ("key", "stated", "least", "most"),
+    [("torque_share", "0.1", 0.1, 0.5), ("stretch", "0.7", 0.7, 0.75), ("limb_room", "120 mm", 100.0, 120.0)],
+)
+def test_what_forbids_a_task_is_told_with_what_would_do(key: str, stated: str, least: float, most: float) -> None:
+    it = task("patch-gripper", *SMALL, f"robot.{key}={stated}")
     proved = plan_exact(it, threads=1)
     assert proved.status == "infeasible", proved.reason
     found = explain_infeasibility(it, seconds=None, threads=1)
-    opening = next(each for each in found.openings if each.key == "robot.torque_share")
-    assert isinstance(opening.after, float) and 0.1 < opening.after < 0.5 and opening.least
+    opening = next(each for each in found.openings if each.key == f"robot.{key}")
+    assert isinstance(opening.after, float) and least <= opening.after <= most and opening.least
     assert plan_exact(task("patch-gripper", *SMALL, *opening.overrides), threads=1).status == "optimal"
 
 
