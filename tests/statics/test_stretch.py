@@ -49,6 +49,7 @@ def test_limbs_are_stretched_as_far_as_any_search_gets_them(chains: Chains) -> N
     for joint, most in enumerate(allowed):
         if np.isfinite(most):
             assert most == pytest.approx(PART * found[joint], rel=1e-6)
+            assert found[joint] > 0.666 * max(found)
             limited += 1
         else:
             assert found[joint] <= 0.667 * max(found) or joint == len(found) - 1

@@ -13,8 +13,8 @@ SWEEPS: Final = 40
 """Over a limb's joints, each of which is put where it stretches the limb most, the others as they are."""
 NEAR: Final = 1e-12
 """Share of a length by which a sweep lengthens it at least, or it was the last [-]."""
-MOST: Final = 0.5
-"""Of a limb lies behind a joint at least whose distance from the tip counts [-]: wrists may be straight."""
+MOST: Final = 2.0 / 3.0
+"""Of a limb's full length lies behind a joint at least whose distance from the tip counts [-]: wrists may be straight."""
 
 
 def stretched(chains: Chains, limb: int) -> float:
