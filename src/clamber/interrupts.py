@@ -15,6 +15,9 @@ AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
 UNSAFE: Final = ("llvmlite.", "numba.core.codegen.")
 """Nothing is raised in these: lost in a callback of LLVM's, an exception leaves a kernel without code, and a call of it is a SIGSEGV."""
+UNSAFE_CALLS: Final = (("numba.core.base", "refresh"), ("numba.core.typing.context", "refresh"))
+"""Nor in these functions of these modules: what Numba has registered comes out of generators once, and one that broke off gives nothing
+more to any kernel that is loaded later, such as those that tell how a run that was interrupted ended."""
 HELD: Final = 0.02
 """In such a call an interrupt waits, and is tried again after so long [s]."""
 
@@ -148,9 +151,10 @@ def _hear_again(number: int, frame: FrameType | None) -> None:
 
 
 def _is_unsafe(frame: FrameType | None) -> bool:
-    """Whether a frame belongs to a call into `UNSAFE`."""
+    """Whether a frame belongs to a call into `UNSAFE`, or to one of `UNSAFE_CALLS`."""
     while frame is not None:
-        if f"{frame.f_globals.get('__name__')}.".startswith(UNSAFE):
+        module = frame.f_globals.get("__name__")
+        if f"{module}.".startswith(UNSAFE) or (module, frame.f_code.co_name) in UNSAFE_CALLS:
             return True
         frame = frame.f_back
     return False

@@ -171,6 +171,44 @@ def test_an_interrupt_at_any_moment_ends_it_soon(words: str, tmp_path: Path) -> 
                 assert latest > SHORTEST, f"it takes {latest / ENDED:.1f} s: {command.out}"
 
 
+REGISTERING = """
+import os, signal, time
+from types import SimpleNamespace
+from numba.core import registry
+from numba.core.typing import templates
+from clamber import interrupts
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+context = registry.cpu_target.typing_context
+context.refresh()
+taken = []
+
+def first(context):
+    os.kill(os.getpid(), signal.SIGINT)
+    taken.append(1)
+    return SimpleNamespace(key="first")
+
+def second(context):
+    taken.append(2)
+    return SimpleNamespace(key="second")
+
+templates.builtin_registry.functions.extend((first, second))
+with interrupts.listening():
+    try:
+        context.refresh()
+        time.sleep(10.0)
+    except KeyboardInterrupt:
+        interrupts.answer()
+    context.refresh()
+print(taken)
+"""
+
+
+def test_numba_takes_all_that_is_registered_before_an_interrupt_is_heard() -> None:
+    ended = subprocess.run([sys.executable, "-c", REGISTERING], capture_output=True, text=True, timeout=60)
+    assert (ended.stdout, ended.returncode) == ("[1, 2]\n", 0), ended.stderr
+
+
 def named_stores(err: str) -> list[Path]:
     """The files in which an interrupted command says that it has kept what had ended, and that are its own."""
     return [path for path in map(Path, re.findall(r"--store (\S+) --resume", err)) if path.parent.name == "unfinished"]
