@@ -13,11 +13,9 @@ T = TypeVar("T")
 
 AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
-UNSAFE: Final = ("llvmlite.", "numba.core.codegen.")
-"""Nothing is raised in these: lost in a callback of LLVM's, an exception leaves a kernel without code, and a call of it is a SIGSEGV."""
-UNSAFE_CALLS: Final = (("numba.core.base", "refresh"), ("numba.core.typing.context", "refresh"))
-"""Nor in these functions of these modules: what Numba has registered comes out of generators once, and one that broke off gives nothing
-more to any kernel that is loaded later, such as those that tell how a run that was interrupted ended."""
+UNSAFE: Final = ("llvmlite.", "numba.core.codegen.", "numba.core.base.refresh.", "numba.core.typing.context.refresh.")
+"""Nothing is raised in these: lost in a callback of LLVM's, an exception leaves a kernel without code, and a call of it is a SIGSEGV; the
+generators that what Numba registers comes out of, once broken off, give nothing more to kernels that are loaded later."""
 HELD: Final = 0.02
 """In such a call an interrupt waits, and is tried again after so long [s]."""
 
@@ -151,13 +149,10 @@ def _hear_again(number: int, frame: FrameType | None) -> None:
 
 
 def _is_unsafe(frame: FrameType | None) -> bool:
-    """Whether a frame belongs to a call into `UNSAFE`, or to one of `UNSAFE_CALLS`."""
-    while frame is not None:
-        module = frame.f_globals.get("__name__")
-        if f"{module}.".startswith(UNSAFE) or (module, frame.f_code.co_name) in UNSAFE_CALLS:
-            return True
+    """Whether a frame belongs to a call into `UNSAFE`."""
+    while frame is not None and not f"{frame.f_globals.get('__name__')}.{frame.f_code.co_name}.".startswith(UNSAFE):
         frame = frame.f_back
-    return False
+    return frame is not None
 
 
 def _tell_lost(lost: "sys.UnraisableHookArgs") -> None:
