@@ -20,12 +20,10 @@ from clamber.families.walker.control.gait import (
     slide_balance,
     slide_places,
     slide_seconds,
-    speed_of_gait,
 )
 from clamber.families.walker.control.track import (
     Track,
     along_twist,
-    by_twist,
     compose,
     seen_from,
     straight,
@@ -90,7 +88,7 @@ def test_tracks_go_where_they_say() -> None:
     walked = through(start, np.array(((1.0, 0.0, 0.7), (1.0, 1.0, 0.7))), RADIUS)
     np.testing.assert_allclose(walked.pose(walked.length), (1.0, 1.0, 0.7), atol=1e-12)
     np.testing.assert_allclose(walked.pose(math.dist(start[:2], (1.0, 0.0))), (1.0, 0.0, 0.7), atol=1e-12)
-    spun = by_twist(start, np.array((0.002, 0.001, 0.01)), 100.0, RADIUS)
+    spun = Track.of(start, [np.array((0.2, 0.1, 1.0))], RADIUS)
     np.testing.assert_allclose(spun.pose(spun.length), compose(start, along_twist(np.array((0.2, 0.1, 1.0)), 1.0)))
 
 
@@ -156,8 +154,10 @@ def test_a_turn_on_the_spot_steps_by_66_degrees_and_about_a_point_half_a_metre_o
 
 
 def test_130_mm_a_minute_need_the_time_of_a_whole_cycle() -> None:
-    assert speed_of_gait(0.160, 73.85) * 60.0 == pytest.approx(0.130, abs=1e-4)
-    assert PhaseTimes(lift=10.0, slide=16.9, lower=10.0, settle=0.0).duty == pytest.approx(0.5)
+    """Equation 1 of Hoshino and others (1995), v = (1 - duty) / duty * step / T: T as the whole cycle is the only reading that fits."""
+    duty = PhaseTimes(lift=10.0, slide=16.9, lower=10.0, settle=0.0).duty
+    assert duty == pytest.approx(0.5)
+    assert (1.0 - duty) / duty * 0.160 / 73.85 * 60.0 == pytest.approx(0.130, abs=1e-4)
 
 
 def test_a_step_of_160_mm_takes_17_seconds_by_the_actuators_own_speed() -> None:
@@ -185,7 +185,7 @@ def test_no_step_leaves_its_room_or_its_balance(swing: int) -> None:
     limits = Limits()
     for seed in range(10):
         rng = np.random.default_rng(seed)
-        track = by_twist(START, rng.uniform((-1, -1, -1), (1, 1, 1)), 1.0, RADIUS)
+        track = Track.of(START, [rng.uniform((-1, -1, -1), (1, 1, 1))], RADIUS)
         step = farthest_step(ROBOT, track, np.zeros((2, 3)), np.zeros(2), swing, neutral=0.0, arm=ARM, limits=limits)
         assert step is not None
         places = slide_places(START, START, step.end, swing, np.linspace(0, 1, 200))

@@ -1,5 +1,6 @@
 """The README's commands as they are typed: in terminals of 80 and of 60 columns, and where there are the letters of Latin-1 only."""
 
+import os
 import re
 import shlex
 import shutil
@@ -96,6 +97,20 @@ def test_help_stands_in_a_narrow_latin_1_terminal(folder: Path) -> None:
         session = typed(words, columns=60, encoding="latin-1", folder=folder)
         assert session.code == 0 and "Traceback" not in session.written
         assert max(map(len, session.screen)) <= 60
+
+
+def test_a_command_that_loads_slowly_says_so_until_it_speaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    slow = (
+        "import sys, time\nclass Slow:\n    def find_spec(self, name, *_):\n"
+        "        if name == 'rich':\n            time.sleep(3.5)\n    "
+    )
+    (tmp_path / "sitecustomize.py").write_text(slow + "\nsys.meta_path.insert(0, Slow())\n", encoding="utf-8")
+    monkeypatch.setenv("PYTHONPATH", f"{tmp_path}{os.pathsep}{ROOT / 'src'}")
+    for words in (["--version"], ["check", "no-such-task"], ["list", "robots", "--help"]):
+        session = typed(words, columns=80, folder=tmp_path)
+        assert "loading, 1 s" in session.written and "loading, 3 s" in session.written
+        assert "loading" not in "\n".join(session.screen)
+    assert "loading" not in typed(["check", "no-such-task", "-q"], columns=80, folder=tmp_path).written
 
 
 def test_what_is_overwritten_does_not_stand_on_the_screen() -> None:

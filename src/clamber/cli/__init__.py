@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ..interrupts import answer, asked, listening
+from ..terminal import tell_loading
 
 INTERRUPTED: Final = 130
 """Exit code after Ctrl-C: that of a process which SIGINT ends, in shells."""
@@ -20,6 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         arguments: Words after `clamber`; None takes those of the process.
     """
     atexit.register(_leave)
+    tell_loading(sys.argv[1:] if arguments is None else arguments)
     code: int | str | None = INTERRUPTED
     with listening():
         try:

@@ -17,6 +17,7 @@ from typer.core import TyperCommand, TyperGroup
 from .. import __version__
 from ..errors import ClamberError, printable
 from ..interrupts import unanswered
+from ..terminal import loaded
 from ..terminal.command_end import until_command_ends
 from ..terminal.options import UnitsChoice
 from ..terminal.output import announce_compilation, fall_silent
@@ -83,6 +84,7 @@ def _whole_names(format_help: Any) -> Any:
     """A command's help whose names of options break over lines where they are too long for their column, and are not cut."""
 
     def format_whole(*args: Any) -> None:
+        loaded()
         from rich.table import Table
         from typer import rich_utils
 
@@ -247,6 +249,8 @@ def _called(command: Command, words: Sequence[str]) -> int | None:
         if unanswered():
             raise KeyboardInterrupt from error
         raise
+    finally:
+        loaded()  # what was wrong is told next
     return code
 
 

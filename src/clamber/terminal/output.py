@@ -18,6 +18,7 @@ from rich.text import Text
 
 from ..errors import FileError, printable
 from ..regular_files import check_target, is_there
+from . import loaded
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance
@@ -38,6 +39,7 @@ STATED: Final = (".toml", ".xml", ".urdf")
 
 def stdout() -> Console:
     """Where results go; 80 columns and no colour when piped."""
+    loaded()
     return PlainConsole(highlight=False, markup=False, emoji=False)
 
 
@@ -47,11 +49,13 @@ _lent: list[Console] = []
 
 def borrow_stderr(console: Console | None) -> None:
     """Have all that goes to stderr go to a console that rewrites its last line, so that neither breaks the other; None: no more."""
+    loaded()
     _lent[:] = [] if console is None else [console]
 
 
 def stderr() -> Console:
     """Where progress and notices go."""
+    loaded()
     return _lent[0] if _lent else PlainConsole(stderr=True, highlight=False, markup=False, emoji=False)
 
 
@@ -59,6 +63,7 @@ def print_json(value: Any) -> None:
     """One JSON value on stdout, of plain values and dataclasses."""
     from ..json_form import plain
 
+    loaded()
     sys.stdout.write(json.dumps(plain(value), indent=2, allow_nan=False) + "\n")
     sys.stdout.flush()  # so that a closed pipe shows here and not at exit
 

@@ -137,6 +137,17 @@ def know_postures(p, s, out):
             return
 
 
+@kernel
+def weigh_known(p):
+    """Weigh a stance whose postures are known; after `set_contacts` and them, before `judge_forces`."""
+    judged = judged_of(p)
+    robot = robot_of(p)
+    body = body_of(p)
+    work = work_of(p)
+    judge_postures(robot, seeds_of(p), body, contacts_of(p), judged[0], rules_of(p), judged[1], work)
+    weigh(robot, body, work)
+
+
 @inlined
 def world_wrench(turn, frame, wrench, to):
     """A wrench in its contact's frame, whose axes are of the base frame, in the world frame."""
@@ -224,13 +235,8 @@ def judge_lifted(p, before, limb):
             lifted.hold[i] = before.hold[i]
             lifted.verdict[i] = -2
     if lifted.verdict[limb] == -2:
-        robot = robot_of(p)
-        body = body_of(p)
         contacts = contacts_of(p)
-        rules = rules_of(p)
-        judged = judged_of(p)
-        out = judged[1]
-        work = work_of(p)
+        out = judged_of(p)[1]
         set_contacts(p, before, limb, -1)
         for i in range(p.n_limbs):
             contacts[i].known = 1
@@ -238,9 +244,8 @@ def judge_lifted(p, before, limb):
             for k in range(JOINTS):
                 out.posture[i, k] = before.q[i, k]
         remember(p, before)
-        judge_postures(robot, seeds_of(p), body, contacts, judged[0], rules, out, work)
-        weigh(robot, body, work)
-        lifted.verdict[limb] = judge_forces(robot, rules, out, work)
+        weigh_known(p)
+        lifted.verdict[limb] = judge_forces(robot_of(p), rules_of(p), out, work_of(p))
     return lifted.verdict[limb]
 
 
@@ -254,15 +259,13 @@ def judge_taken(p, before, s, limb, margins):
     set_contacts(p, s, -1, limb)
     remember(p, before)
     robot = robot_of(p)
-    seeds = seeds_of(p)
     body = body_of(p)
-    contacts = contacts_of(p)
     rules = rules_of(p)
     judged = judged_of(p)
     out = judged[1]
     work = work_of(p)
     know_postures(p, s, out)
-    broken = judge_shape(robot, seeds, body, contacts, judged[0], rules, out, work)
+    broken = judge_shape(robot, seeds_of(p), body, contacts_of(p), judged[0], rules, out, work)
     if broken < 0 and out.judged and p.n_solids > 0:
         place_in_world(robot, body, work, out)
         margins[CLEARANCE] = judge_clearance(p, out)
@@ -278,8 +281,7 @@ def judge_taken(p, before, s, limb, margins):
         return broken
     set_contacts(p, s, -1, limb)
     know_postures(p, s, out)
-    judge_postures(robot, seeds, body, contacts, judged[0], rules, out, work)
-    weigh(robot, body, work)
+    weigh_known(p)
     work.bears[limb] = 0
     broken = judge_forces(robot, rules, out, work)
     if broken >= 0:

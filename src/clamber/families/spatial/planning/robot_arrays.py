@@ -9,6 +9,7 @@ from ..robot.robot import SpatialRobot
 from ..statics.kinematics_kernels import limb_frames
 from ..statics.records import WORK, robot_record
 from ..statics.seeds import SeedTable, seed_table
+from ..statics.stretch import stretched
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,9 +53,5 @@ def _tips(robot: SpatialRobot, records: Records) -> Floats:
 
 def reaches(robot: SpatialRobot) -> Floats:
     """From the base to each limb's first joint and on along links that no joint bends, slides run out [m], shape (limbs,)."""
-    chains = robot.chains
-    made = np.linalg.norm(chains.offset, axis=2)
-    slides = chains.sliding * np.maximum(abs(chains.lower), abs(chains.upper))
-    used = np.arange(made.shape[1]) <= chains.n_joints[:, None]
-    total: Floats = (made * used).sum(axis=1) + (slides * used[:, :-1]).sum(axis=1)
-    return total
+    mounts: Floats = np.linalg.norm(robot.chains.offset[:, 0], axis=1)
+    return mounts + [stretched(robot.chains, limb) for limb in range(len(mounts))]

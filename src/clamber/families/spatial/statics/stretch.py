@@ -1,5 +1,7 @@
 """How far limbs are stretched: where a knee is all but straight, a millimetre decides to which side it gives way."""
 
+import math
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -32,48 +34,57 @@ def farthest_tips(chains: Chains, limb: int) -> Floats:
     the limb lies, for those behind which nothing bends, and where a slide makes the limb longer, which is not stretched before its end.
     """
     n = int(chains.n_joints[limb])
-    allowed = np.full(n, np.inf)
     if chains.stretch >= 1.0 or chains.sliding[limb, :n].any():
-        return allowed
+        return np.full(n, np.inf)
+    links = chains.offset[limb, 1 : n + 1].tobytes(), chains.rotation[limb, 1 : n + 1].tobytes()
+    return np.array(_farthest(chains.stretch, *links))
+
+
+@lru_cache(maxsize=64)
+def _farthest(stretch: float, offset: bytes, rotation: bytes) -> tuple[float, ...]:
+    """Those distances of a limb, from its frames' origins and axes behind the first: worked out once, however many tasks it has."""
+    links = np.frombuffer(offset).reshape(-1, 3), np.frombuffer(rotation).reshape(-1, 3, 3)
+    n = len(links[0])
+    allowed = [math.inf] * n
     whole = 0.0
     for k in range(n - 1):
-        bent, straight = np.array([_stretch(chains, limb, k, turn) for turn in 2.0 * np.pi * POSTURES]).T
+        bent, straight = np.array([_stretch(links, k, turn) for turn in 2.0 * np.pi * POSTURES]).T
         longest = float(straight.max())
         whole = max(whole, longest)
-        if longest > MOST * whole and bent.min() < chains.stretch * longest:
-            allowed[k] = chains.stretch * longest
-    return allowed
+        if longest > MOST * whole and bent.min() < stretch * longest:
+            allowed[k] = stretch * longest
+    return tuple(allowed)
 
 
-def _stretch(chains: Chains, limb: int, first: int, turn: float) -> tuple[float, float]:
+def _stretch(links: tuple[Floats, Floats], first: int, turn: float) -> tuple[float, float]:
     """Distances of a limb's tip from a joint [m]: with all joints turned alike, and the largest that turning one after the other gives."""
-    n = int(chains.n_joints[limb])
+    n = len(links[0])
     q = np.full(n, turn)
-    bent = length = float(np.linalg.norm(_places(chains, limb, first, q)[0][-1]))
+    bent = length = float(np.linalg.norm(_places(links, first, q)[0][-1]))
     for _ in range(SWEEPS):
         for k in range(first + 1, n):
-            places, axes = _places(chains, limb, first, q)
+            places, axes = _places(links, first, q)
             axis, to, back = axes[k - first], places[-1] - places[k - first], -places[k - first]
             # seen along the axis, the tip is to lie opposite the first joint
             to, back = to - (to @ axis) * axis, back - (back @ axis) * axis
             q[k] += np.arctan2(-(np.cross(to, back) @ axis), -(to @ back))
-        longer = float(np.linalg.norm(_places(chains, limb, first, q)[0][-1]))
+        longer = float(np.linalg.norm(_places(links, first, q)[0][-1]))
         if longer <= length * (1.0 + NEAR):
             break
         length = longer
     return bent, length
 
 
-def _places(chains: Chains, limb: int, first: int, q: Floats) -> tuple[Floats, Floats]:
+def _places(links: tuple[Floats, Floats], first: int, q: Floats) -> tuple[Floats, Floats]:
     """Origins of a limb's frames from a joint on and of its tip [m], and the joints' axes, all in that joint's frame."""
-    n = int(chains.n_joints[limb])
+    offset, rotation = links
     place, turn = np.zeros(3), np.eye(3)
     places, axes = [place], [turn[:, 2]]
-    for k in range(first + 1, n + 1):
-        place, turn = place + turn @ chains.offset[limb, k], turn @ chains.rotation[limb, k]
+    for k in range(first + 1, len(q) + 1):
+        place, turn = place + turn @ offset[k - 1], turn @ rotation[k - 1]
         places.append(place)
         axes.append(turn[:, 2])
-        if k < n:
+        if k < len(q):
             c, s = np.cos(q[k]), np.sin(q[k])
             turn = turn @ np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
     return np.array(places), np.array(axes)

@@ -237,8 +237,3 @@ class PhaseTimes:
     def duty(self) -> float:
         """Share of the cycle for which a foot is on the ground [-]: 0.5 if nothing but the other frame's swing took time."""
         return 1.0 - (self.lift + self.slide + self.lower) / (2.0 * self.whole)
-
-
-def speed_of_gait(step: float, cycle: float, duty: float = 0.5) -> float:
-    """Equation 1 of Hoshino and others (1995) with T as the whole cycle, the only reading that gives 130 mm/min with 160 mm [m/s]."""
-    return (1.0 - duty) / duty * step / cycle

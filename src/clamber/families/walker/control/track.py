@@ -82,11 +82,6 @@ def turn_about(start: Floats, centre: Floats, angle: float, radius: float) -> Tr
     return Track.of(start, [angle * np.array((offset[1], -offset[0], 1.0))], radius)
 
 
-def by_twist(start: Floats, twist: Floats, seconds: float, radius: float) -> Track:
-    """What a body twist (vx, vy [m/s], omega [rad/s]) does in a time."""
-    return Track.of(start, [seconds * np.asarray(twist, float)], radius)
-
-
 def twist_between(a: Floats, b: Floats) -> Floats:
     """Twist that takes a frame from pose `a` to pose `b` at a constant rate, the shorter way round: `along_twist` undone, shape (3,)."""
     x, y, turn = seen_from(a, b)

@@ -11,7 +11,7 @@ from ....errors import ClamberError
 from ....types import Floats
 from .assemblies import assemblies
 from .mechanism import Mechanism
-from .two_frames import FOUND, actuator_lengths, follow_branch, length_curvature, length_jacobian, singular_measure
+from .two_frames import FOUND, actuator_lengths, follow_branch, length_jacobian, singular_measure
 
 NO_LENGTH: Final = 1e-12
 """An actuator as short has no direction [m]."""
@@ -85,18 +85,6 @@ class TwoFrames:
         lengths, jacobian = np.empty(3), np.empty((3, 3))
         length_jacobian(self.delta, self.y, x, y, theta, lengths, jacobian)
         return jacobian
-
-    def jacobian_derivative(self, pose: npt.ArrayLike) -> Floats:
-        """Second derivatives of the lengths, [i, j, k] = d2 L_i / dq_j dq_k with q = x, y, theta, shape (3, 3, 3).
-
-        Raises:
-            PoseError: If a length is zero, where it has no derivative.
-        """
-        x, y, theta = _pose(pose)
-        self._check_lengths(x, y, theta)
-        out = np.empty((3, 3, 3))
-        length_curvature(self.delta, self.y, x, y, theta, out)
-        return out
 
     def singular_measure(self, pose: npt.ArrayLike) -> float:
         """Determinant of the Jacobian times the three lengths [m^4]; zero where singular, its sign tells the kinds of assembly apart."""

@@ -48,32 +48,6 @@ def length_jacobian(delta, y, pose_x, pose_y, theta, lengths, jacobian):
 
 
 @inlined
-def length_curvature(delta, y, pose_x, pose_y, theta, curvature):
-    """Write the second derivatives of the lengths by x, y, theta, shape (3, 3, 3): [i, j, k] = d2 L_i / dq_j dq_k.
-
-    With v = p + R B - A, its derivatives v_j and v_jk: L_jk = (v_j . v_k + v . v_jk - L_j L_k) / L.
-    """
-    c = math.cos(theta)
-    s = math.sin(theta)
-    for i in range(3):
-        arm_x = c * y[i, 0] - s * y[i, 1]
-        arm_y = s * y[i, 0] + c * y[i, 1]
-        across = pose_x + arm_x - delta[i, 0]
-        up = pose_y + arm_y - delta[i, 1]
-        length = math.sqrt(across * across + up * up)
-        ux = across / length
-        uy = up / length
-        moment = arm_x * uy - arm_y * ux
-        curvature[i, 0, 0] = (1.0 - ux * ux) / length
-        curvature[i, 1, 1] = (1.0 - uy * uy) / length
-        curvature[i, 0, 1] = curvature[i, 1, 0] = -ux * uy / length
-        curvature[i, 0, 2] = curvature[i, 2, 0] = (-arm_y - ux * moment) / length
-        curvature[i, 1, 2] = curvature[i, 2, 1] = (arm_x - uy * moment) / length
-        bend = arm_x * arm_x + arm_y * arm_y - (across * arm_x + up * arm_y)
-        curvature[i, 2, 2] = (bend - moment * moment) / length
-
-
-@inlined
 def singular_measure(delta, y, pose_x, pose_y, theta):
     """Determinant of the Jacobian times the three lengths [m^4]: zero where the mechanism is singular, finite where a length is zero.
 
