@@ -4,7 +4,7 @@ Joints are flat, limb by limb in the robot's order, each from the base to the ti
 is that of the world's list, as in stances: 0 is the hold of number 1, and -1 means none. Wrenches are those of the surface on the limb.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
@@ -73,8 +73,8 @@ class SpatialTruth:
     """Of the base frame's origin [m/s], then angular [rad/s], shape (6,)."""
     joints: Floats
     """Positions and speeds at the outputs of the gears, shape (2, n)."""
-    tips: Floats
-    """[m], shape (limbs, 3)."""
+    find_tips: Callable[[], Floats]
+    """Gives `tips`, which few ask for."""
     wrenches: Floats
     """Force [N] and moment about the tip [N m] on each limb, shape (limbs, 6)."""
     attached: Ints
@@ -83,6 +83,11 @@ class SpatialTruth:
     """What the motors gave over the last tick, on average [N m] or [N], shape (n,)."""
     broken: tuple[HoldBreak, ...] = ()
     """Contacts that have given way since the reset; holds by their numbers."""
+
+    @property
+    def tips(self) -> Floats:
+        """[m], shape (limbs, 3)."""
+        return self.find_tips()
 
 
 class SpatialPlant(PausingPlant[SpatialSensed, SpatialTruth | None], Protocol):

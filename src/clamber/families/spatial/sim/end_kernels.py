@@ -163,6 +163,21 @@ def feel_ends(handle):
 
 
 @kernel
+def held_by(handle, found):
+    """The hold that each end effector is attached to, or that what only pushes pushes on, -1: none, of a handle of an `ends.Seen`.
+
+    Args:
+        handle: Of what is seen.
+        found: Filled: indices of holds, shape (limbs,).
+    """
+    seen = opened(handle)[0]
+    for limb in range(found.size):
+        end, force = seen.ends[limb], seen.wrenches[limb]
+        pushes = end.capture == 0.0 and abs(force[0]) + abs(force[1]) + abs(force[2]) > 0.0
+        found[limb] = end.nearest if pushes else end.hold
+
+
+@kernel
 def nearest_holds(handle):
     """The hold whose patch is nearest each tip, of what the handle of an `ends.Seen` holds: one that is attached stays at its own.
 

@@ -15,7 +15,7 @@ from ..robot.contacts import SHUTTING
 from ..robot.robot import SpatialRobot
 from ..world.solids import frame_about
 from ..world.world import World
-from .end_kernels import END, FORMS, WORDS, feel_ends, nearest_holds
+from .end_kernels import END, FORMS, WORDS, feel_ends, held_by, nearest_holds
 from .spatial_flaws import Deviations, SpatialFlaws
 from .spatial_model import ON_SOLIDS, THICK, TIP, held_name, patch_name, quaternion, tip_name
 
@@ -119,7 +119,9 @@ class Ends:
         self._balls = [
             [geom for geom in range(model.ngeom) if model.geom_bodyid[geom] == body] for body in self._bodies
         ]
-        self._bits = [int(model.geom_contype[balls[0]]) for balls in self._balls]
+        self._contype = model.geom_contype
+        self._bits = [int(self._contype[balls[0]]) for balls in self._balls]
+        self._touched = list(self._bits)  # what they are now
         self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
         self.wrenches: Final = np.zeros((n, 6))
         """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
@@ -161,9 +163,8 @@ class Ends:
     @property
     def attached(self) -> Ints:
         """Index of the hold that each is attached to; of what only pushes the one that it pushes on; -1: none. Shape (limbs,)."""
-        found = self._ends["hold"].astype(np.int32)
-        pushing = (self._capture == 0.0) & (np.abs(self.wrenches[:, :3]).sum(axis=1) > 0.0)
-        found[pushing] = self._nearest[pushing]
+        found = np.empty(len(self._ends), np.int32)
+        held_by(self._handle, found)
         return found
 
     def reset(self, held: Sequence[int] | Ints) -> None:
@@ -279,8 +280,7 @@ class Ends:
         bits = self._bits[limb]
         if hold >= 0 and self._recessed[hold] and self._gaps[limb] <= self._reach(limb):
             bits &= (1 << ON_SOLIDS) - 1
-        for ball in self._balls[limb]:
-            self._model.geom_contype[ball] = bits
+        self._touch(limb, bits)
 
     def _attach(self, limb: int, hold: int) -> None:
         data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]
@@ -299,7 +299,7 @@ class Ends:
         self._nearest[limb], self._gaps[limb] = hold, 0.0
         end["mu"] = self._friction(limb, hold)
         end["held"] = self._grip_factor[hold] * min(own, self._hold_pull[hold])
-        self._touchable(limb, False)
+        self._touch(limb, 0)
         drawn = float(np.linalg.norm(self._seats[limb] - self._anchors[limb])) > SEATED
         self.shutting[limb] = self._ticks if drawn else 0
         self.closed[limb] = not drawn
@@ -333,7 +333,7 @@ class Ends:
         if self._held[limb] >= 0:
             self._data.eq_active[self._held[limb]] = 0
         self._ends["hold"][limb], self._ends["over"][limb] = -1, 0
-        self._touchable(limb, True)
+        self._touch(limb, self._bits[limb])
         self.closed[limb] = self.shutting[limb] = 0
 
     def _come_off(self, limb: int, time: float) -> None:
@@ -346,6 +346,8 @@ class Ends:
         self._let_go(limb)
         self._spent[limb] = True
 
-    def _touchable(self, limb: int, touches: bool) -> None:
-        for ball in self._balls[limb]:
-            self._model.geom_contype[ball] = self._bits[limb] if touches else 0
+    def _touch(self, limb: int, bits: int) -> None:
+        """Have a tip touch what has one of these bits of MuJoCo's `conaffinity`."""
+        if bits != self._touched[limb]:
+            self._touched[limb] = bits
+            self._contype[self._balls[limb]] = bits

@@ -1,6 +1,7 @@
 """A robot in space in MuJoCo as a plant: encoders, IMU, tip forces and switches in; torques and commands to end effectors out."""
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Final
 
 import numpy as np
@@ -213,18 +214,23 @@ class SpatialSim:
         """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
         return bool(drive_motors(self._motors, time))
 
+    def _tips_at(self, qpos: Floats) -> Floats:
+        """Where tips are [m], shape (limbs, 3)."""
+        seen = self._seen
+        seen.qpos[:] = qpos
+        self._mujoco.mj_kinematics(self.model, seen)
+        tips: Floats = seen.site_xpos[self._sites]
+        return tips
+
     def truth(self) -> SpatialTruth:
         """How things really are; a look leaves the simulation as it is."""
-        seen = self._seen
-        seen.qpos[:] = self._qpos
-        self._mujoco.mj_kinematics(self.model, seen)
         turn, velocity, joints = np.empty((3, 3)), np.empty(6), np.empty((2, len(self._at)))
         true_motion(self._motion, turn, velocity, joints)
         return SpatialTruth(
             pose=Pose(turn, self._qpos[:3].copy()),
             velocity=velocity,
             joints=joints,
-            tips=seen.site_xpos[self._sites].copy(),
+            find_tips=partial(self._tips_at, self._qpos.copy()),
             wrenches=self.ends.wrenches.copy(),
             attached=self.ends.attached,
             torques=self._given[0].copy(),

@@ -73,14 +73,15 @@ class WatchedBody(TracedBody):
         super().tick()
         aims, truth = self.law.aims, self.plant.truth()
         assert truth is not None
+        tips = truth.tips
         self._note("body", truth.pose.position - aims.position)
         for limb, does in enumerate(aims.does.tolist()):
             if does == SWINGS and not self._pressed[limb].any():
-                self._note("tip", truth.tips[limb] - aims.tip[limb])
+                self._note("tip", tips[limb] - aims.tip[limb])
             if does == HOLDS and self._taken[limb, 0] == self.holds[limb]:
-                self._note("slid", truth.tips[limb] - self._taken[limb, 1:])
+                self._note("slid", tips[limb] - self._taken[limb, 1:])
             elif does == HOLDS:
-                self._taken[limb] = self.holds[limb], *truth.tips[limb]
+                self._taken[limb] = self.holds[limb], *tips[limb]
         if self.ticks % EVERY == 0:
             self.moments.append(Moment(copied(self.law.state), copied(aims)))
 
