@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import Final
 
 from ..interrupts import answer, asked, listening
-from ..terminal import tell_loading
+from ..terminal import loaded, tell_loading
 
 INTERRUPTED: Final = 130
 """Exit code after Ctrl-C: that of a process which SIGINT ends, in shells."""
@@ -31,6 +31,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         except KeyboardInterrupt:
             pass
         answer()
+    loaded()
     if asked() and code in (None, 0, 1, INTERRUPTED):
         print("clamber: interrupted", file=sys.stderr)
         code = INTERRUPTED
