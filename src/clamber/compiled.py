@@ -2,6 +2,7 @@
 
 import contextlib
 from collections.abc import Callable
+from functools import partial
 from typing import Any, Final, TypeVar
 
 import numba
@@ -10,6 +11,7 @@ from numba.core import cgutils, types
 from numba.core.types import unliteral
 from numba.extending import NativeValue, intrinsic, models, register_model, unbox
 
+from .interrupts import abandonable
 from .kernel_cache import KernelCache, bounds_checked, tell_no_cache
 
 carray = numba.carray
@@ -57,7 +59,7 @@ def _compile(function: F, *, inline: bool) -> F:
         finally:
             cached.end_turn()
 
-    dispatcher.compile = compile_in_turn
+    dispatcher.compile = lambda signature: abandonable(partial(compile_in_turn, signature))
     return dispatcher  # type: ignore[no-any-return]
 
 

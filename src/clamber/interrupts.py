@@ -5,7 +5,7 @@ import sys
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import FrameType, TracebackType
 from typing import Any, Final, Self, TypeVar
 
@@ -13,11 +13,8 @@ T = TypeVar("T")
 
 AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
-UNSAFE: Final = ("llvmlite.", "numba.core.codegen.", "numba.core.base.refresh.", "numba.core.typing.context.refresh.")
-"""Nothing is raised in these: lost in a callback of LLVM's, an exception leaves a kernel without code, and a call of it is a SIGSEGV; the
-generators that what Numba registers comes out of, once broken off, give nothing more to kernels that are loaded later."""
-HELD: Final = 0.02
-"""In such a call an interrupt waits, and is tried again after so long [s]."""
+STACK: Final = 16 << 20
+"""Of a thread that compiles [B]: half a megabyte, as some systems give to one, is too little for LLVM."""
 
 
 @dataclass(slots=True)
@@ -30,6 +27,10 @@ class _Interrupts:
     """Whether the last one has no answer yet."""
     wholes: int = 0
     """Blocks of `passed_on` that are open."""
+    listens: bool = False
+    """Whether Ctrl-C is raised again until it is answered."""
+    calls: set[threading.Event] = field(default_factory=set)
+    """Of `abandonable`, that have not ended."""
 
 
 _now: Final = _Interrupts()
@@ -84,25 +85,43 @@ def passed_on() -> Iterator[None]:
 
 
 def abandonable(work: Callable[[], T]) -> T:
-    """What one long call into compiled code answers; Ctrl-C cannot stop such a call, but leave it behind in a thread of its own.
+    """What one long call answers, into compiled code or of the compiler: Ctrl-C cannot stop such a call, but leave it behind in a thread.
 
-    What it works on may not be used any more after Ctrl-C.
+    An exception within would be lost in a callback of LLVM's, and leave a kernel without code or Numba with half of what it registers;
+    the thread, which gets none, ends the call as if nothing had been. What it works on may not be used any more after Ctrl-C. Outside of
+    `listening`, and in other threads than the main one, it is called as anything else is.
     """
+    if not _now.listens or threading.current_thread() is not threading.main_thread():
+        return work()
     answers: list[T] = []
     errors: list[BaseException] = []
+    ended = threading.Event()
 
     def call() -> None:
         try:
             answers.append(work())
         except BaseException as error:  # raised where it is waited for
             errors.append(error)
+        finally:
+            _now.calls.discard(ended)
+            ended.set()
 
-    thread = threading.Thread(target=call, daemon=True)
-    thread.start()
-    thread.join()
+    before = threading.stack_size(STACK)
+    try:
+        thread = threading.Thread(target=call, daemon=True)
+        _now.calls.add(ended)
+        thread.start()
+    finally:
+        threading.stack_size(before)
+    ended.wait()
     if errors:
         raise errors[0]
     return answers[0]
+
+
+def left_behind() -> bool:
+    """Whether a call of `abandonable` still works: Python cannot end beside LLVM, which aborts the process, but the process can."""
+    return bool(_now.calls)
 
 
 @contextmanager
@@ -123,11 +142,12 @@ def listening() -> Iterator[None]:
     before: dict[int, Any] = {signal.SIGINT: signal.signal(signal.SIGINT, _hear)}
     before[signal.SIGALRM] = signal.signal(signal.SIGALRM, _hear_again)
     told, sys.unraisablehook = sys.unraisablehook, _tell_lost
+    _now.listens = True
     try:
         yield
     finally:
         sys.unraisablehook = told
-        _now.open = False
+        _now.open = _now.listens = False
         signal.setitimer(signal.ITIMER_REAL, 0.0)
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -141,18 +161,8 @@ def _hear(number: int, frame: FrameType | None) -> None:
 def _hear_again(number: int, frame: FrameType | None) -> None:
     if not _now.open:
         return
-    if _is_unsafe(frame):
-        signal.setitimer(signal.ITIMER_REAL, HELD)
-        return
     signal.setitimer(signal.ITIMER_REAL, AGAIN)
     raise KeyboardInterrupt
-
-
-def _is_unsafe(frame: FrameType | None) -> bool:
-    """Whether a frame belongs to a call into `UNSAFE`."""
-    while frame is not None and not f"{frame.f_globals.get('__name__')}.{frame.f_code.co_name}.".startswith(UNSAFE):
-        frame = frame.f_back
-    return frame is not None
 
 
 def _tell_lost(lost: "sys.UnraisableHookArgs") -> None:

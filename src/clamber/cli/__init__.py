@@ -1,13 +1,15 @@
 """The command `clamber`: one file or folder per command; they read options, call the package and print what it answers."""
 
 import atexit
+import contextlib
 import gc
+import os
 import signal
 import sys
 from collections.abc import Sequence
 from typing import Final
 
-from ..interrupts import answer, asked, listening
+from ..interrupts import answer, asked, left_behind, listening
 from ..terminal import loaded, tell_loading
 
 INTERRUPTED: Final = 130
@@ -35,6 +37,11 @@ def main(arguments: Sequence[str] | None = None) -> None:
     if asked() and code in (None, 0, 1, INTERRUPTED):
         print("clamber: interrupted", file=sys.stderr)
         code = INTERRUPTED
+    if left_behind():
+        with contextlib.suppress(OSError):  # nobody reads any more
+            sys.stdout.flush()
+            sys.stderr.flush()
+        os._exit(code if isinstance(code, int) else 1)
     sys.exit(code)
 
 
