@@ -89,7 +89,11 @@ class Believed(NamedTuple):
     covariance: Floats
     """Of the errors, whose rows stand in `base_filter_kernels`, shape (n, n)."""
     error: Floats
+    """What has been found of the errors and is not yet taken off, shape (n,)."""
     gain: Floats
+    """Covariances of all errors with what is measured, number by number, shape (3, n); scratch, as the next."""
+    share: Floats
+    """What each number that is measured tells of the errors."""
 
 
 class Followed(NamedTuple):
@@ -161,7 +165,8 @@ class BaseFilter:
             turn_at=turn_at,
             covariance=np.zeros((n, n)),
             error=np.zeros(n),
-            gain=np.zeros(n),
+            gain=np.zeros((3, n)),
+            share=np.zeros((3, n)),
         )
         self.slips = 0
         """How often a tip that should stay has moved."""

@@ -115,25 +115,36 @@ def predict(belief, gyro, accelerometer, gravity, noise, dt):
 
 
 @kernel
-def take(belief, plus, minus, innovation, variance):
-    """One number that was measured: that the error of row `plus`, less that of row `minus`, is `innovation`; `belief.error` gathers."""
-    p, h = belief.covariance, belief.gain
+def take_vector(belief, plus, minus, innovation, variance):
+    """Three numbers that were measured: that errors from row `plus` on, less those from row `minus` on, are `innovation`.
+
+    They are taken one after the other, and the covariance is gone through once, not for each; `belief.error` gathers.
+    """
+    p, h, share, error = belief.covariance, belief.gain, belief.share, belief.error
     n = p.shape[0]
+    for k in range(3):
+        first, second = plus + k, minus + k
+        for a in range(n):
+            x, y = p[a, first], p[a, second]
+            for j in range(k):
+                x -= share[j, a] * h[j, first]
+                y -= share[j, a] * h[j, second]
+            h[k, a] = x - y
+        spread = h[k, first] - h[k, second] + variance
+        off = innovation[k] - (error[first] - error[second])
+        for a in range(n):
+            share[k, a] = h[k, a] / spread
+            error[a] += share[k, a] * off
     for a in range(n):
-        h[a] = p[a, plus] - p[a, minus]
-    spread = h[plus] - h[minus] + variance
-    off = innovation - (belief.error[plus] - belief.error[minus])
-    for a in range(n):
-        gain = h[a] / spread
-        belief.error[a] += gain * off
+        u, v, w = share[0, a], share[1, a], share[2, a]
         for b in range(n):
-            p[a, b] -= gain * h[b]
+            p[a, b] = p[a, b] - u * h[0, b] - v * h[1, b] - w * h[2, b]
 
 
 @kernel
 def take_row(belief, measured, innovation, variance):
     """One number that was measured: that `measured` times the errors is `innovation`."""
-    p, h = belief.covariance, belief.gain
+    p, h = belief.covariance, belief.gain[0]
     n = p.shape[0]
     spread, off = variance, innovation
     for a in range(n):
@@ -295,11 +306,9 @@ def correct(belief, tips, axes, variances, turned, gate, off):
             slipped += 1
             continue
         at = CONTACTS + 3 * limb
-        for a in range(3):
-            take(belief, POSITION + a, at + a, off[a], variances[limb])
+        take_vector(belief, POSITION, at, off[:3], variances[limb])
         if belief.turn_at[limb] >= 0:
-            for a in range(3):
-                take(belief, PHI + a, belief.turn_at[limb] + a, off[3 + a], turned)
+            take_vector(belief, PHI, belief.turn_at[limb], off[3:], turned)
         apply_error(belief)
     return slipped
 
