@@ -1,7 +1,7 @@
 """The one way to compile: ``@kernel``, with machine code kept on disk (`kernel_cache`)."""
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any, Final, TypeVar
 
@@ -94,7 +94,22 @@ class Handle:
         self.held: Final = held
         self._memory = np.array(_words(held), np.int64)
         self.address: Final = int(self._memory.ctypes.data)
-        self._numba_type_ = HandleType(numba.typeof(held))
+        form = _form(held)
+        if form not in _types:
+            _types[form] = HandleType(numba.typeof(held))
+        self._numba_type_ = _types[form]
+
+
+_types: Final[dict[Hashable, HandleType]] = {}
+"""By `_form`: Numba takes a millisecond for the type of fifty arrays."""
+
+
+def _form(value: Any) -> Hashable:
+    """What Numba's type of a value depends on."""
+    if isinstance(value, np.ndarray):
+        flags = value.flags
+        return value.dtype, value.ndim, flags.c_contiguous, flags.f_contiguous, flags.aligned, flags.writeable
+    return (type(value), *(map(_form, value) if isinstance(value, tuple) else ()))
 
 
 def _words(value: Any) -> list[int]:

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Final
 
@@ -141,7 +142,12 @@ class SpatialRobot(Pictured):
     @property
     def contacts(self) -> tuple[Contact, ...]:
         """What the end of each limb can take, as statics needs it."""
-        return tuple(end.contact() for end in self.ends)
+        return tuple(map(_contact_of, self.ends))
+
+
+@lru_cache
+def _contact_of(end: ContactKind) -> Contact:
+    return end.contact()
 
 
 def whole_document(document: Document) -> Document:
