@@ -42,6 +42,9 @@ END = np.dtype(
         ("nearest", "i8"),  # index of the hold whose patch is nearest, -1: there is none
         ("gap", "f8"),  # distance from that patch [m]
         ("under", "i8"),  # index of the hold whose patch is beneath it
+        ("wanted", "i8"),  # 1: it is to attach
+        ("spent", "i8"),  # 1: its attempt has failed, or it has come off since it was told to
+        ("sunk", "i8"),  # 1: its tip may come into the recess beneath it
         # while it is attached
         ("hold", "i8"),  # index, -1: to none
         ("mu", "f8"),
@@ -182,7 +185,8 @@ def nearest_holds(handle):
     """The hold whose patch is nearest each tip, of what the handle of an `ends.Seen` holds: one that is attached stays at its own.
 
     Returns:
-        Bits of the limbs to look at: that is another than before, a tip that may attach is near a hold and attached to none, or jaws shut.
+        Bits of the limbs to look at: that is another than before, one that is to attach is near it, it lies deeper than was believed and
+        one that attaches is near it or was, or jaws shut.
     """
     seen = opened(handle)[0]
     tips, sites, ends, places, normals, radii = seen.tips, seen.sites, seen.ends, seen.places, seen.normals, seen.radii
@@ -210,7 +214,9 @@ def nearest_holds(handle):
                 best = gap
                 nearest = k
         end.nearest, end.gap = nearest, best
-        if (end.capture > 0.0 and best < end.near) or nearest != end.under:
+        near = end.capture > 0.0 and best < end.near
+        tries = end.wanted and not end.spent and best <= 2.0 * end.capture
+        if nearest != end.under or (near and (tries or end.sunk or seen.recessed[nearest])):
             some |= 1 << limb
     return some
 

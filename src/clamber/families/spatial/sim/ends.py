@@ -58,6 +58,8 @@ class Seen(NamedTuple):
     """Out of their surfaces, shape (holds, 3)."""
     radii: Floats
     """Of their patches [m], shape (holds,); negative: the hold is no more."""
+    recessed: npt.NDArray[np.bool_]
+    """Whether they lie deeper than was believed, shape (holds,)."""
     numbers: Floats
     """MuJoCo's `qpos`, of which none is finite any more once its numbers are lost."""
 
@@ -121,7 +123,6 @@ class Ends:
         ]
         self._contype = model.geom_contype
         self._bits = [int(self._contype[balls[0]]) for balls in self._balls]
-        self._touched = list(self._bits)  # what they are now
         self._limit = max(1, round(GIVING_WAY * flaws.control_rate))
         self.wrenches: Final = np.zeros((n, 6))
         """Of the surface on each tip, world frame, shape (limbs, 6) [N], [N m]."""
@@ -130,7 +131,7 @@ class Ends:
         self._ends["capture"], self._ends["under"] = self._capture, -2
         self._ends["near"] = 2.0 * self._capture + [self._reach(limb) for limb in range(n)]
         self._nearest, self._under, self._gaps = (self._ends[key] for key in ("nearest", "under", "gap"))
-        self._wanted, self._spent = np.zeros(n, bool), np.zeros(n, bool)
+        self._wanted, self._spent = self._ends["wanted"], self._ends["spent"]
         self.shutting: Final = np.zeros(n, np.int32)
         """Ticks until jaws have shut, shape (limbs,)."""
         self._anchors, self._seats = (
@@ -156,6 +157,7 @@ class Ends:
             places=self._places,
             normals=self._normals,
             radii=self._radii,
+            recessed=self._recessed,
             numbers=data.qpos,
         )
         self._given, self._handle = seen.given, Handle(seen)
@@ -278,9 +280,9 @@ class Ends:
     def _open_recess(self, limb: int, hold: int) -> None:
         """A hold that lies deeper than was believed is the bottom of a recess, into which what attaches there can come."""
         bits = self._bits[limb]
-        if hold >= 0 and self._recessed[hold] and self._gaps[limb] <= self._reach(limb):
-            bits &= (1 << ON_SOLIDS) - 1
-        self._touch(limb, bits)
+        sunk = hold >= 0 and bool(self._recessed[hold]) and self._gaps[limb] <= self._reach(limb)
+        self._ends["sunk"][limb] = sunk
+        self._touch(limb, bits & (1 << ON_SOLIDS) - 1 if sunk else bits)
 
     def _attach(self, limb: int, hold: int) -> None:
         data, eq, body = self._data, self._model.eq_data[self._held[limb]], self._bodies[limb]
@@ -348,6 +350,4 @@ class Ends:
 
     def _touch(self, limb: int, bits: int) -> None:
         """Have a tip touch what has one of these bits of MuJoCo's `conaffinity`."""
-        if bits != self._touched[limb]:
-            self._touched[limb] = bits
-            self._contype[self._balls[limb]] = bits
+        self._contype[self._balls[limb]] = bits
