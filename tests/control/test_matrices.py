@@ -31,7 +31,8 @@ def test_a_square_system_is_solved(seed: int, n: int) -> None:
 
 def test_a_singular_system_says_so() -> None:
     assert not solve_square(room(np.zeros((3, 3))), 3, np.ones(3))
-    assert not factor(room(np.diag((1.0, -1.0))), 2)
+    indefinite = room(np.diag((1.0, -1.0)))
+    assert not factor(indefinite, 2, indefinite)
 
 
 @given(seed=SEEDS, n=SIZES)
@@ -39,11 +40,11 @@ def test_a_positive_matrix_is_factored_and_solved(seed: int, n: int) -> None:
     rng = np.random.default_rng(seed)
     half = rng.normal(size=(n, n))
     matrix, right = half @ half.T + 0.1 * np.eye(n), rng.normal(size=n)
-    lower, vector = room(matrix), right.copy()
-    assert factor(lower, n)
-    triangle = np.tril(lower[:n, :n])
-    np.testing.assert_allclose(triangle @ triangle.T, matrix, atol=1e-12)
-    back_substitute(lower, n, vector)
+    upper, vector = room(matrix), right.copy()
+    assert factor(upper, n, upper)
+    triangle = np.triu(upper[:n, :n])
+    np.testing.assert_allclose(triangle.T @ triangle, matrix, atol=1e-12)
+    back_substitute(upper, n, vector)
     np.testing.assert_allclose(matrix @ vector, right, atol=1e-11)
 
 

@@ -7,8 +7,8 @@ this is SCCT.
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
-from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .law_state import SHARE, TORQUE
+from .scct import wanted_motion
 
 
 @kernel
@@ -17,17 +17,8 @@ def implicit_admittance(joints, root, settings, aim, state, memory, room, report
 
     Memory: started, then by joint the command at the tick before, then its filtered derivative.
     """
-    lines, squares = room.lines, room.squares
-    n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
-    pull = lines[SPARE]
-    for i in range(rows):
-        wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
-        pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    lines, n = room.lines, joints.size
+    motion = wanted_motion(n, settings, room, report)
     before = memory[1 : 1 + n]
     slope = memory[1 + n : 1 + 2 * n]
     first = memory[0] == 0.0

@@ -55,7 +55,7 @@ def invert_motion(task, n_rows, n, share, lambda2, wanted, square, held, out):
             for k in range(n):
                 total += task[i, k] * task[j, k] / share[k]
             square[i, j] = total
-    if not factor(square, n_rows):
+    if not factor(square, n_rows, square):
         for j in range(n):
             out[j] = 0.0
         return

@@ -44,37 +44,51 @@ def solve_square(matrix, size, vector):
 
 
 @kernel
-def factor(matrix, size):
-    """Cholesky factor in the lower half, in place; False if `matrix` is not positive definite."""
+def factor(matrix, size, upper):
+    """Cholesky factor U of a matrix U^T U, of which the lower half is read, into an upper half, its own or another's.
+
+    Returns:
+        False if the matrix is not positive definite.
+    """
     for j in range(size):
-        total = matrix[j, j]
+        row = upper[j]
+        for i in range(j, size):
+            row[i] = matrix[i, j]
         for k in range(j):
-            total -= matrix[j, k] * matrix[j, k]
-        if not total > 0.0:
+            part, above = upper[k, j], upper[k]
+            for i in range(j, size):
+                row[i] -= above[i] * part
+        if not row[j] > 0.0:
             return False
-        root = math.sqrt(total)
-        matrix[j, j] = root
+        row[j] = math.sqrt(row[j])
         for i in range(j + 1, size):
-            total = matrix[i, j]
-            for k in range(j):
-                total -= matrix[i, k] * matrix[j, k]
-            matrix[i, j] = total / root
+            row[i] /= row[j]
     return True
 
 
 @inlined
-def back_substitute(lower, size, vector):
-    """Solve L L^T x = `vector` in place, with L from `factor`."""
-    for i in range(size):
-        total = vector[i]
-        for k in range(i):
-            total -= lower[i, k] * vector[k]
-        vector[i] = total / lower[i, i]
+def solve_transposed(upper, size, vector):
+    """Solve U^T x = `vector` in place."""
+    for k in range(size):
+        vector[k] /= upper[k, k]
+        for i in range(k + 1, size):
+            vector[i] -= upper[k, i] * vector[k]
+
+
+@inlined
+def solve_upper(upper, size, vector):
+    """Solve U x = `vector` in place."""
     for i in range(size - 1, -1, -1):
-        total = vector[i]
         for k in range(i + 1, size):
-            total -= lower[k, i] * vector[k]
-        vector[i] = total / lower[i, i]
+            vector[i] -= upper[i, k] * vector[k]
+        vector[i] /= upper[i, i]
+
+
+@inlined
+def back_substitute(upper, size, vector):
+    """Solve U^T U x = `vector` in place, with U from `factor`."""
+    solve_transposed(upper, size, vector)
+    solve_upper(upper, size, vector)
 
 
 @kernel

@@ -80,7 +80,7 @@ def _through_inertia(rows, n, lambda2, wanted, posture, room):
     for j in range(n):
         largest = max(largest, inertia[j, j])
         torque[j] = 0.0
-    if not factor(inertia, n):
+    if not factor(inertia, n, inertia):
         return
     for i in range(rows):
         for j in range(n):
@@ -95,7 +95,7 @@ def _through_inertia(rows, n, lambda2, wanted, posture, room):
             for j in range(n):
                 total += task[k, j] * through[i, j]
             square[i, k] = total
-    found = factor(square, rows)
+    found = factor(square, rows, square)
     if found:
         back_substitute(square, rows, wanted)
     for j in range(n):

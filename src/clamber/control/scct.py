@@ -12,10 +12,9 @@ from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WA
 
 
 @kernel
-def scct(joints, root, settings, aim, state, memory, room, report):
-    """Torques of SCCT into `lines[TORQUE]`; arguments as in `drive`."""
+def wanted_motion(n, settings, room, report):
+    """Joint motion J^-1 (K_p e + K_d de/dt) that is asked of the first `n` joints; arguments as in `drive`."""
     lines, squares = room.lines, room.squares
-    n = joints.size
     rows = settings.n_rows
     task = squares[TASK]
     lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
@@ -25,5 +24,13 @@ def scct(joints, root, settings, aim, state, memory, room, report):
         pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
     motion = lines[SPARE + 1]
     invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    return motion
+
+
+@kernel
+def scct(joints, root, settings, aim, state, memory, room, report):
+    """Torques of SCCT into `lines[TORQUE]`; arguments as in `drive`."""
+    lines, n = room.lines, joints.size
+    motion = wanted_motion(n, settings, room, report)
     for j in range(n):
         lines[TORQUE, j] = lines[SHARE, j] * motion[j]

@@ -177,7 +177,7 @@ class Programme(NamedTuple):
     factor: Floats
     """Scratch of `programme_kernels.solve_equations`, shape (6 + n, 6 + n) ..."""
     z: Floats
-    """... (7, unknowns) ..."""
+    """... (unknowns, 7) ..."""
     square: Floats
     """... and (7, 6)."""
 
@@ -196,6 +196,6 @@ class Programme(NamedTuple):
             at=np.zeros(tree.limbs, np.int32),
             x=np.zeros(n),
             factor=np.zeros((tree.speeds, tree.speeds)),
-            z=np.zeros((FREE + 1, n)),
+            z=np.zeros((n, FREE + 1)),
             square=np.zeros((FREE + 1, FREE)),
         )

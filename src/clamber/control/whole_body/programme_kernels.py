@@ -3,6 +3,7 @@
 import math
 
 from ...compiled import inlined, kernel, opened
+from ..matrices import back_substitute, factor, solve_upper
 from .programme import (
     ARM,
     BASE,
@@ -237,85 +238,85 @@ def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
 
 
 @kernel
-def factor(matrix, n, lower):
-    """Cholesky factor of the first `n` rows and columns of a matrix."""
-    for i in range(n):
-        for j in range(i + 1):
-            total = matrix[i, j]
-            for k in range(j):
-                total -= lower[i, k] * lower[j, k]
-            lower[i, j] = math.sqrt(total) if i == j else total / lower[j, j]
-
-
-@kernel
-def solve_equations(programme, n, m, nv):
+def solve_equations(aims, programme, n, m, nv):
     """Solve a programme for its equations alone, into `programme.x`; whether that meets every bound and row, and so is the solution.
 
     At most moments nothing binds. H is that of the accelerations, then a diagonal; the equations are the first six rows of A x = b:
 
         x = -H^-1 (f + A^T l),    (A H^-1 A^T) l = -b - A H^-1 f
 
-    With H = L L^T and the rows of A^T and f solved by L, Z = L^-1 A^T and z = L^-1 f, that is (Z^T Z) l = -b - Z^T z.
+    With H = U^T U and the columns of A^T and f solved by U^T, Z = U^-T A^T and z = U^-T f, that is (Z^T Z) l = -b - Z^T z.
     """
     h, a, x = programme.h[: n * n].reshape(n, n), programme.a[: m * n].reshape(m, n), programme.x
-    lower, z, square = programme.factor, programme.z, programme.square
-    factor(h, nv, lower)
-    for r in range(FREE + 1):
-        row = z[r]
-        for i in range(n):
-            row[i] = programme.f[i] if r == FREE else a[r, i]
-        for i in range(nv):
-            total = row[i]
-            for k in range(i):
-                total -= lower[i, k] * row[k]
-            row[i] = total / lower[i, i]
-        for i in range(nv, n):
-            row[i] /= math.sqrt(h[i, i])
-    for r in range(FREE + 1):
-        for c in range(FREE if r == FREE else r + 1):
-            total = 0.0
-            for i in range(n):
-                total += z[r, i] * z[c, i]
-            square[r, c] = total
+    upper, z, square = programme.factor, programme.z, programme.square
+    if not factor(h, nv, upper):
+        return False
+    for i in range(n):
+        for r in range(FREE):
+            z[i, r] = a[r, i]
+        z[i, FREE] = programme.f[i]
+    for k in range(nv):
+        row = z[k]
+        for r in range(FREE + 1):
+            row[r] /= upper[k, k]
+        for i in range(k + 1, nv):
+            left, below = upper[k, i], z[i]
+            for r in range(FREE + 1):
+                below[r] -= left * row[r]
+    for i in range(nv, n):
+        root = math.sqrt(h[i, i])
+        for r in range(FREE + 1):
+            z[i, r] /= root
+    square[:] = 0.0
+    for i in range(n):
+        row = z[i]
+        for r in range(FREE + 1):
+            sums = square[r]
+            for c in range(FREE):
+                sums[c] += row[r] * row[c]
     for r in range(FREE):
         square[FREE, r] = -programme.upper[n + r] - square[FREE, r]
-    factor(square, FREE, square)
+    if not factor(square, FREE, square):
+        return False
     multipliers = square[FREE]
-    for r in range(FREE):
-        for k in range(r):
-            multipliers[r] -= square[r, k] * multipliers[k]
-        multipliers[r] /= square[r, r]
-    for r in range(FREE - 1, -1, -1):
-        for k in range(r + 1, FREE):
-            multipliers[r] -= square[k, r] * multipliers[k]
-        multipliers[r] /= square[r, r]
+    back_substitute(square, FREE, multipliers)
     for i in range(n):
-        total = z[FREE, i]
+        total = z[i, FREE]
         for r in range(FREE):
-            total += multipliers[r] * z[r, i]
+            total += multipliers[r] * z[i, r]
         x[i] = -total
     for i in range(nv, n):
         x[i] /= math.sqrt(h[i, i])
-    for i in range(nv - 1, -1, -1):
-        for k in range(i + 1, nv):
-            x[i] -= lower[k, i] * x[k]
-        x[i] /= lower[i, i]
-    return meets_all(programme, a, n, m)
+    solve_upper(upper, nv, x)
+    return meets_all(aims, programme, a, n, nv)
+
+
+@inlined
+def meets(a, r, x, first, last, lower, upper):
+    """Whether row `r` of `a` times `x` is within bounds, of which the columns from `first` to `last` count: all others are 0."""
+    total = 0.0
+    for i in range(first, last):
+        total += a[r, i] * x[i]
+    return lower - MET <= total <= upper + MET
 
 
 @kernel
-def meets_all(programme, a, n, m):
+def meets_all(aims, programme, a, n, nv):
     """Whether `programme.x` meets every bound and every row of `a`."""
     x, lower, upper = programme.x, programme.lower, programme.upper
     for i in range(n):
         if not lower[i] - MET <= x[i] <= upper[i] + MET:
             return False
-    for r in range(m):
-        total = 0.0
-        for i in range(n):
-            total += a[r, i] * x[i]
-        if not lower[n + r] - MET <= total <= upper[n + r] + MET:
+    for r in range(nv):
+        if not meets(a, r, x, 0, n, lower[n + r], upper[n + r]):
             return False
+    row = nv
+    for limb in range(aims.does.size):
+        at = programme.at[limb]
+        for _ in range(aims.n_rows[limb] if at >= 0 else 0):
+            if not meets(a, row, x, at, at + aims.components[limb], lower[n + row], upper[n + row]):
+                return False
+            row += 1
     return True
 
 
@@ -331,11 +332,10 @@ def write_and_solve(handle):
     """
     tree, state, dynamics, aims, limits, gains, programme, torques, wrenches = opened(handle)
     n, m = write_programme(tree, state, dynamics, aims, limits, gains, programme)
-    solved = solve_equations(programme, n, m, FREE + tree.rotor.size)
+    solved = solve_equations(aims, programme, n, m, FREE + tree.rotor.size)
     if solved:
-        read_torques(
-            dynamics, aims, limits, programme, programme.a[: m * n].reshape(m, n), programme.x, torques, wrenches
-        )
+        a = programme.a[: m * n].reshape(m, n)
+        read_torques(dynamics, aims, limits, programme, a, programme.x, torques, wrenches)
         bear_friction(tree, state, limits, gains, programme.x, torques)
     return n, m, solved
 

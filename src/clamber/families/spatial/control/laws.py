@@ -19,7 +19,7 @@ from .laws_kernels import jacobian_transpose, joint_impedance, operational_space
 class Room(NamedTuple):
     """Scratch of one law, and what it remembers."""
 
-    lower: Floats
+    upper: Floats
     """Cholesky factor of the mass matrix, shape (6 + n, 6 + n)."""
     basis: Floats
     """Directions that tasks have taken, orthonormal rows, shape (6 + n, 6 + n)."""
@@ -52,7 +52,7 @@ class Room(NamedTuple):
         tree = law.tree
         n, limbs = tree.speeds, tree.limbs
         return cls(
-            lower=np.zeros((n, n)),
+            upper=np.zeros((n, n)),
             basis=np.zeros((n, n)),
             row=np.zeros(n),
             wanted=np.zeros(n),

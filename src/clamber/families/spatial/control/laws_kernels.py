@@ -3,8 +3,9 @@
 import math
 
 from ....compiled import kernel, opened
+from ....control.matrices import factor, solve_transposed
 from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, POSTURE_RATE, REST_RATE, SWING_RATE, SWINGS
-from ....control.whole_body.programme_kernels import factor, wanted_base
+from ....control.whole_body.programme_kernels import wanted_base
 from ....control.whole_body.tree import FREE
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from .task_kernels import (
@@ -13,7 +14,6 @@ from .task_kernels import (
     meet,
     points,
     share_wrenches,
-    solve_lower,
     tip_error,
     turn_error,
     turn_row,
@@ -34,17 +34,17 @@ FARTHEST = 0.2
 def operational_space(handle):
     """See `laws.OperationalSpace`, of what its handle holds; returns whether any contact bears."""
     tree, state, dynamics, aims, limits, gains, room = opened(handle)
-    lower, row, y, wanted = room.lower, room.row, room.y, room.wanted
+    upper, row, y, wanted = room.upper, room.row, room.y, room.wanted
     n = y.size
-    factor(dynamics.mass, n, lower)
+    factor(dynamics.mass, n, upper)
     wanted_base(state, aims, gains[BASE_RATE], wanted)
     rate = gains[POSTURE_RATE]
     for k in range(tree.rotor.size):
         wanted[FREE + k] = rate * (rate * (aims.posture[k] - state.joints[k]) - 2.0 * state.speed[FREE + k])
-    for i in range(n):  # y = L^T of the accelerations: in y, lengths are kinetic energies
+    for i in range(n):  # y = U of the accelerations: in y, lengths are kinetic energies
         y[i] = 0.0
         for j in range(i, n):
-            y[i] += lower[j, i] * wanted[j]
+            y[i] += upper[i, j] * wanted[j]
     count = 0
     for limb in range(aims.does.size):
         if aims.does[limb] != HOLDS:
@@ -53,12 +53,12 @@ def operational_space(handle):
             for i in range(n):
                 row[i] = dynamics.jacobian[limb, a, i]
             value = -gains[REST_RATE] * dynamics.tip_speed[limb, a] - dynamics.tip_bias[limb, a]
-            solve_lower(lower, row)
+            solve_transposed(upper, n, row)
             count = meet(room.basis, count, row, value, y)
     for a in range(FREE):
         for i in range(n):
             row[i] = 1.0 if i == a else 0.0
-        solve_lower(lower, row)
+        solve_transposed(upper, n, row)
         count = meet(room.basis, count, row, wanted[a], y)
     for limb in range(aims.does.size):
         if aims.does[limb] != SWINGS:
@@ -66,19 +66,19 @@ def operational_space(handle):
         for a in range(3):
             for i in range(n):
                 row[i] = dynamics.jacobian[limb, a, i]
-            solve_lower(lower, row)
+            solve_transposed(upper, n, row)
             value = tip_error(dynamics, aims, gains, limb, a) - dynamics.tip_bias[limb, a]
             count = meet(room.basis, count, row, value, y)
         for axis in range(2 if points(aims, limb) else 0):
             turn_row(dynamics, limb, axis, row)
-            solve_lower(lower, row)
+            solve_transposed(upper, n, row)
             value = turn_wanted(dynamics, aims, gains, limb, axis)
             value -= about(dynamics, limb, axis, dynamics.tip_bias[limb])
             count = meet(room.basis, count, row, value, y)
-    for i in range(n):  # M of the accelerations is L y
+    for i in range(n):  # M of the accelerations is U^T y
         room.forces[i] = dynamics.bias[i]
         for j in range(i + 1):
-            room.forces[i] += lower[i, j] * y[j]
+            room.forces[i] += upper[j, i] * y[j]
     return shared(tree, dynamics, aims, limits, gains, room)
 
 

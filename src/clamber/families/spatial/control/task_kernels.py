@@ -56,15 +56,6 @@ def meet(basis, count, row, wanted, y):
 
 
 @inlined
-def solve_lower(lower, x):
-    """`lower x' = x`, in place."""
-    for i in range(x.size):
-        for j in range(i):
-            x[i] -= lower[i, j] * x[j]
-        x[i] /= lower[i, i]
-
-
-@inlined
 def tip_error(dynamics, aims, gains, limb, a):
     """Acceleration by which a swinging tip follows its path along a world axis, its bias taken off [m/s^2]."""
     rate = min(gains[SWING_RATE], aims.tip_rate[limb])

@@ -42,7 +42,7 @@ def share_motion(scaled, speeds, tool_speeds, velocity, xi, gain, damping, squar
         for k in range(m):
             total -= gain * scaled[i, k] * xi[k]
         right[i] = total
-    if not factor(square, 3):
+    if not factor(square, 3, square):
         for k in range(m):
             rates[k] = 0.0
         return False
