@@ -10,10 +10,10 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_446,
+    "lines": 100_378,
     "files": 665,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 57,
+    f"functions with more than {MANY} parameters": 56,
     "median length of a line": 40,
     "90th percentile of the length of a line": 97,
 }

@@ -9,10 +9,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from clamber.benchmarks.climb_speed import two_rungs
-from clamber.execution.fault import ANY, FAULTS, Fault, FaultChoiceError, draw_fault
-from clamber.execution.faulty_plants import FaultyHardware
-from clamber.execution.hardware import WiredClimber
+from clamber.execution.fault import ANY, FAULTS, Fault, FaultChoiceError, Injector, draw_fault
+from clamber.execution.faulty_plants import step_on
+from clamber.execution.hardware import Hardware, Reading, WiredClimber
+from clamber.execution.plant import PlantLayer
+from clamber.execution.posture_guard import PostureGuard
 from clamber.execution.sequencer import Sequencer
+from clamber.execution.wiring import LOST_COUNT
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climbing import Climbing
 from clamber.families.climber.execution.executable_plan import lay_course
@@ -25,6 +28,7 @@ from clamber.planning.problem.plan import Plan, load_plan
 from clamber.sim.wires import ClimberWires
 from clamber.tasks import load_task
 from clamber.trials.fault_trials import ENDINGS, ending_of_run
+from clamber.types import Floats
 from tiers import first_fast
 
 ROOT = Path(__file__).parents[2]
@@ -178,6 +182,58 @@ def test_any_fault_at_any_tick_ends_in_a_report(seed: int, start: float) -> None
     assert run.done != bool(run.reason)
     assert ending_of_run(run.done, run.report) in ENDINGS
     assert run.to_json() is not None
+
+
+class FaultyHardware(PlantLayer[Hardware, Floats]):
+    """A robot's wires with a fault; `Hardware`. A counter that is to say no number says that it has lost its count.
+
+    Args:
+        hardware: What is wired.
+        fault: Channels are its encoders; motors are its amplifiers.
+        resolution: Counts of each encoder per radian, shape (n_encoders,).
+        guard: What holds the posture when no commands come; None: the last ones stay.
+    """
+
+    def __init__(self, hardware: Hardware, fault: Fault, resolution: Floats, guard: PostureGuard | None = None) -> None:
+        super().__init__(hardware)
+        self._resolution, self._injector, self._guard = resolution, Injector(fault, hardware.period), guard
+        self._commands: Floats | None = None
+        self._reading: Reading | None = None
+        self._guards = False
+
+    def reset(self, start: Floats) -> None:
+        """See `Hardware`."""
+        self.plant.reset(start)
+        self._injector.reset()
+        self._commands, self._reading, self._guards = None, None, False
+
+    def sense(self) -> Reading:
+        """See `Hardware`."""
+        reading, n = self.plant.sense(), len(self._resolution)
+        self._reading = reading
+        values = reading.counts.astype(np.float64)
+        values[:n] /= self._resolution
+        values, number = self._injector.read(values, reading.tick)
+        values[:n] *= self._resolution
+        counts = np.where(np.isfinite(values), np.rint(np.nan_to_num(values)), LOST_COUNT).astype(np.int32)
+        return Reading(counts, number)
+
+    def actuate(self, commands: Floats) -> None:
+        """See `Hardware`."""
+        arrived = self._injector.command(commands)
+        if arrived is not None:
+            self._commands = arrived
+
+    def step(self) -> None:
+        """See `Hardware`."""
+        commands = self._commands
+        if commands is not None and self._injector.silent and self._guard is not None and self._reading is not None:
+            if not self._guards:
+                self._guard.hold(self._reading, commands)
+            self._guards, commands = True, self._guard.commands(self._reading)
+        if commands is not None:
+            self.plant.actuate(self._injector.weaken(commands.copy(), np.zeros(len(commands))))
+        step_on(self.plant, self._injector.passed())
 
 
 @pytest.mark.parametrize(

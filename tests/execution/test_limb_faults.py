@@ -8,13 +8,15 @@ import pytest
 from clamber.control.controller import Controller, MeasurementError
 from clamber.control.law_settings import LawSettings
 from clamber.execution.closed_loop import LimbGuard, close_loop
-from clamber.execution.fault import FAULTS, Fault
-from clamber.execution.faulty_plants import FaultyLimb
+from clamber.execution.fault import FAULTS, Fault, Injector
+from clamber.execution.faulty_plants import OwnHold, step_on
+from clamber.execution.plant import LimbPlant, Sensed, Truth
 from clamber.execution.trace import LimbTrace
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.scenario import circle_scenario
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plants import PLANTS
+from clamber.types import Floats
 
 FLAWS = LimbFlaws(encoder_counts=400, delay=1, seed=3)
 START = 1.0
@@ -29,6 +31,65 @@ SIZES = {
     "repeated": 0.3,
     "jitter": 0.2,
 }
+
+
+class FaultyLimb:
+    """A limb with a fault; a `LimbPlant` with a batch of one.
+
+    Args:
+        plant: What moves.
+        fault: Channels are its joints.
+        inertias: As in `FaultyBody`.
+    """
+
+    batch: int = 1
+
+    def __init__(self, plant: LimbPlant, fault: Fault, inertias: Floats) -> None:
+        assert plant.batch == 1
+        self.plant, self.period = plant, plant.period
+        self._injector, self._own = Injector(fault, plant.period), OwnHold(inertias)
+        self._states = np.zeros((2, len(inertias)))
+        n = plant.truth().torques.shape[1]
+        self._told = Sensed(np.zeros((1, 2, n)), np.zeros((1, 6)), np.zeros((1, 6)))
+        self._torques = np.zeros(n)
+
+    def reset(self, q: Floats) -> None:
+        """See `LimbPlant`."""
+        self.plant.reset(q)
+        self._injector.reset()
+        self._own.reset()
+        self._torques[:] = self._states[:] = 0.0
+
+    def sense(self) -> Sensed:
+        """See `LimbPlant`."""
+        sensed, injector, told = self.plant.sense(), self._injector, self._told
+        told.wrenches[:], told.mounts[:] = sensed.wrenches, sensed.mounts
+        states, number, at = sensed.states[0], int(sensed.number[0]), injector.fault.channel
+        self._states[:] = states
+        if injector.fault.target == "sensor":
+            told.states[0], told.number[0] = states, number
+            told.states[0, 0], _ = injector.read(states[0], number)
+            told.states[0, 1, at] = injector.speed(float(told.states[0, 0, at]), float(states[1, at]))
+        else:
+            packet, told.number[0] = injector.read(states.ravel(), number)
+            told.states[0] = packet.reshape(2, -1)
+        return told
+
+    def actuate(self, torques: Floats) -> None:
+        """See `LimbPlant`."""
+        arrived = self._injector.command(np.ravel(torques))
+        if arrived is not None:
+            self._torques[:] = arrived
+
+    def step(self) -> None:
+        """See `LimbPlant`."""
+        torques = self._own.torques(self._torques, *self._states) if self._injector.silent else self._torques
+        self.plant.actuate(self._injector.weaken(torques.copy(), np.zeros(len(torques)))[None])
+        step_on(self.plant, self._injector.passed())
+
+    def truth(self) -> Truth:
+        """See `LimbPlant`."""
+        return self.plant.truth()
 
 
 def circled(name: str, fault: Fault | None, *, guarded: bool = True) -> tuple[LimbTrace, LimbGuard]:

@@ -6,10 +6,8 @@ import numpy as np
 
 from ..types import Floats, Ints
 from .fault import Fault, Injector
-from .hardware import Hardware, Reading
-from .plant import BodyPlant, BodySensed, BodyTruth, LimbPlant, PlantLayer, Sensed, Truth
-from .posture_guard import JointHold, PostureGuard
-from .wiring import LOST_COUNT
+from .plant import BodyPlant, BodySensed, BodyTruth, PlantLayer
+from .posture_guard import JointHold
 
 
 class Weakened(Protocol):
@@ -126,114 +124,3 @@ class FaultyBody(PlantLayer[BodyPlant, BodyTruth | None]):
         driven = injector.weaken(torques.copy(), np.zeros(len(torques)))
         self.plant.actuate(driven.reshape(-1, 2), self._grips)
         step_on(self.plant, injector.passed())
-
-
-class FaultyLimb:
-    """A limb with a fault; a `LimbPlant` with a batch of one.
-
-    Args:
-        plant: What moves.
-        fault: Channels are its joints.
-        inertias: As in `FaultyBody`.
-    """
-
-    batch: int = 1
-
-    def __init__(self, plant: LimbPlant, fault: Fault, inertias: Floats) -> None:
-        assert plant.batch == 1
-        self.plant, self.period = plant, plant.period
-        self._injector, self._own = Injector(fault, plant.period), OwnHold(inertias)
-        self._states = np.zeros((2, len(inertias)))
-        n = plant.truth().torques.shape[1]
-        self._told = Sensed(np.zeros((1, 2, n)), np.zeros((1, 6)), np.zeros((1, 6)))
-        self._torques = np.zeros(n)
-
-    def reset(self, q: Floats) -> None:
-        """See `LimbPlant`."""
-        self.plant.reset(q)
-        self._injector.reset()
-        self._own.reset()
-        self._torques[:] = self._states[:] = 0.0
-
-    def sense(self) -> Sensed:
-        """See `LimbPlant`."""
-        sensed, injector, told = self.plant.sense(), self._injector, self._told
-        told.wrenches[:], told.mounts[:] = sensed.wrenches, sensed.mounts
-        states, number, at = sensed.states[0], int(sensed.number[0]), injector.fault.channel
-        self._states[:] = states
-        if injector.fault.target == "sensor":
-            told.states[0], told.number[0] = states, number
-            told.states[0, 0], _ = injector.read(states[0], number)
-            told.states[0, 1, at] = injector.speed(float(told.states[0, 0, at]), float(states[1, at]))
-        else:
-            packet, told.number[0] = injector.read(states.ravel(), number)
-            told.states[0] = packet.reshape(2, -1)
-        return told
-
-    def actuate(self, torques: Floats) -> None:
-        """See `LimbPlant`."""
-        arrived = self._injector.command(np.ravel(torques))
-        if arrived is not None:
-            self._torques[:] = arrived
-
-    def step(self) -> None:
-        """See `LimbPlant`."""
-        torques = self._own.torques(self._torques, *self._states) if self._injector.silent else self._torques
-        self.plant.actuate(self._injector.weaken(torques.copy(), np.zeros(len(torques)))[None])
-        step_on(self.plant, self._injector.passed())
-
-    def truth(self) -> Truth:
-        """See `LimbPlant`."""
-        return self.plant.truth()
-
-
-class FaultyHardware(PlantLayer[Hardware, Floats]):
-    """A robot's wires with a fault; `Hardware`. A counter that is to say no number says that it has lost its count.
-
-    Args:
-        hardware: What is wired.
-        fault: Channels are its encoders; motors are its amplifiers.
-        resolution: Counts of each encoder per radian, shape (n_encoders,).
-        guard: What holds the posture when no commands come; None: the last ones stay.
-    """
-
-    def __init__(self, hardware: Hardware, fault: Fault, resolution: Floats, guard: PostureGuard | None = None) -> None:
-        super().__init__(hardware)
-        self._resolution, self._injector, self._guard = resolution, Injector(fault, hardware.period), guard
-        self._commands: Floats | None = None
-        self._reading: Reading | None = None
-        self._guards = False
-
-    def reset(self, start: Floats) -> None:
-        """See `Hardware`."""
-        self.plant.reset(start)
-        self._injector.reset()
-        self._commands, self._reading, self._guards = None, None, False
-
-    def sense(self) -> Reading:
-        """See `Hardware`."""
-        reading, n = self.plant.sense(), len(self._resolution)
-        self._reading = reading
-        values = reading.counts.astype(np.float64)
-        values[:n] /= self._resolution
-        values, number = self._injector.read(values, reading.tick)
-        values[:n] *= self._resolution
-        counts = np.where(np.isfinite(values), np.rint(np.nan_to_num(values)), LOST_COUNT).astype(np.int32)
-        return Reading(counts, number)
-
-    def actuate(self, commands: Floats) -> None:
-        """See `Hardware`."""
-        arrived = self._injector.command(commands)
-        if arrived is not None:
-            self._commands = arrived
-
-    def step(self) -> None:
-        """See `Hardware`."""
-        commands = self._commands
-        if commands is not None and self._injector.silent and self._guard is not None and self._reading is not None:
-            if not self._guards:
-                self._guard.hold(self._reading, commands)
-            self._guards, commands = True, self._guard.commands(self._reading)
-        if commands is not None:
-            self.plant.actuate(self._injector.weaken(commands.copy(), np.zeros(len(commands))))
-        step_on(self.plant, self._injector.passed())
