@@ -13,6 +13,8 @@ T = TypeVar("T")
 
 AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
+PATIENCE: Final = 1.0
+"""How long machine code is waited for that is loaded after Ctrl-C, to tell what there is [s]."""
 STACK: Final = 16 << 20
 """Of a thread that compiles [B]: half a megabyte, as some systems give to one, is too little for LLVM."""
 
@@ -34,6 +36,8 @@ class _Interrupts:
 
 
 _now: Final = _Interrupts()
+_here: Final = threading.local()
+"""`works` in the thread of a call of `abandonable`."""
 
 
 def answer() -> None:
@@ -89,15 +93,19 @@ def abandonable(work: Callable[[], T]) -> T:
 
     An exception within would be lost in a callback of LLVM's, and leave a kernel without code or Numba with half of what it registers;
     the thread, which gets none, ends the call as if nothing had been. What it works on may not be used any more after Ctrl-C. Outside of
-    `listening`, and in other threads than the main one, it is called as anything else is.
+    `listening`, and within such a call, it is called as anything else is.
+
+    Raises:
+        KeyboardInterrupt: After Ctrl-C, in whatever thread waits for it.
     """
-    if not _now.listens or threading.current_thread() is not threading.main_thread():
+    if not _now.listens or getattr(_here, "works", False):
         return work()
     answers: list[T] = []
     errors: list[BaseException] = []
     ended = threading.Event()
 
     def call() -> None:
+        _here.works = True
         try:
             answers.append(work())
         except BaseException as error:  # raised where it is waited for
@@ -113,10 +121,17 @@ def abandonable(work: Callable[[], T]) -> T:
         thread.start()
     finally:
         threading.stack_size(before)
-    ended.wait()
+    ended.wait(PATIENCE if _now.asked else None)  # what was left behind may hold Numba's lock
     if errors:
         raise errors[0]
+    if not answers:  # Ctrl-C has ended the wait
+        raise KeyboardInterrupt
     return answers[0]
+
+
+def ending() -> bool:
+    """Whether a command was interrupted that has not ended yet."""
+    return _now.listens and _now.asked
 
 
 def left_behind() -> bool:
@@ -155,6 +170,8 @@ def listening() -> Iterator[None]:
 
 def _hear(number: int, frame: FrameType | None) -> None:
     _now.asked = _now.open = True
+    for ended in tuple(_now.calls):
+        ended.set()
     _hear_again(number, frame)
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from numba.core import types
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, IndexDataCacheFile, _CacheLocator
 
+from .interrupts import ending
 from .sealed import DAMAGED as DAMAGED
 from .sealed import FOREIGN as FOREIGN
 from .sealed import SealError, access_problem, read_sealed, write_sealed
@@ -265,9 +266,15 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         return (*super()._index_key(sig, codegen), *sorted(map(outside_hash, files)))
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """The machine code for some types, or None; then it is this process's turn to compile it."""
+        """The machine code for some types, or None; then it is this process's turn to compile it.
+
+        Raises:
+            KeyboardInterrupt: If it would have to be compiled after Ctrl-C: that takes longer than anybody waits then.
+        """
         found = super().load_overload(sig, target_context)
         if found is None:
+            if ending():
+                raise KeyboardInterrupt
             self._turns.take(Path(self.cache_path), self._impl.filename_base)
             found = super().load_overload(sig, target_context)
         return found

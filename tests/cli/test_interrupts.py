@@ -11,6 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -83,6 +84,8 @@ LONG = (
 FIRST = (
     "plan circle --planner mcts",
     "plan circle --planner hybrid",
+    "plan circle --planner exact --stances 20000000",
+    "reach h --hangs",
     "run ladder-hand",
     "run wall-gripper",
     "trials wall-gripper -n 9",
@@ -225,7 +228,7 @@ with interrupts.listening():
         twice(1)
     except KeyboardInterrupt:
         interrupts.answer()
-    print(twice(2), taken)
+print(twice(2), taken)
 """
 
 
@@ -279,7 +282,7 @@ def test_a_batch_that_is_interrupted_goes_on_where_it_was(words: str, first: str
 @pytest.mark.parametrize(
     ("words", "first", "kept"),
     [
-        ("study bevly-1997", r"\n4 of 43", r"3 of 43 results: .*\n"),
+        ("study bevly-1997", r"\n4 of 43", r"[1-9]\d* of 43 results: .*\n"),
         ("trials ladder-hand -n 100 --workers 1", r"\n1 of 100", r"of 1 climbs"),
         ("validate ladder-hand -n 2 --noise peg_error=15mm", r"of 2 climbs; 0 changes", r"of 2 climbs before"),
         ("reach h --hangs", r"\d\d\d\d+ stances", r"incomplete: interrupted"),
@@ -433,6 +436,61 @@ def test_a_long_call_is_left_behind_and_ends_by_itself() -> None:
     assert interrupts.left_behind()
     hold.set()
     assert held.wait(10.0)
+
+
+@pytest.mark.usefixtures("listens")
+def test_a_thread_that_waits_for_a_long_call_leaves_it_behind_too() -> None:
+    hold, begun = threading.Event(), threading.Event()
+
+    def work() -> None:
+        begun.set()
+        hold.wait()
+
+    with ThreadPoolExecutor(1) as pool:
+        waits = pool.submit(interrupts.abandonable, work)
+        assert begun.wait(10.0)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        interrupts.answer()
+        with pytest.raises(KeyboardInterrupt):
+            waits.result(10.0)
+    hold.set()
+
+
+COMPILED_LATE = """
+import signal
+from clamber import interrupts
+from clamber.compiled import kernel
+
+@kernel
+def twice(number):
+    return 2 * number
+
+@kernel
+def thrice(number):
+    return 3 * number
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+with interrupts.listening():
+    print(twice(1))
+    try:
+        signal.raise_signal(signal.SIGINT)
+    except KeyboardInterrupt:
+        interrupts.answer()
+    print(twice(2))
+    try:
+        thrice(1)
+    except KeyboardInterrupt:
+        print("not compiled")
+"""
+
+
+def test_after_an_interrupt_kernels_are_used_and_none_is_compiled(tmp_path: Path) -> None:
+    script = tmp_path / "late.py"
+    script.write_text(COMPILED_LATE)
+    environment = os.environ | {"CLAMBER_CACHE": str(tmp_path / "cache")}
+    ended = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=60, env=environment)
+    assert (ended.stdout, ended.returncode) == ("2\n4\nnot compiled\n", 0), ended.stderr
 
 
 @pytest.mark.parametrize("ended", [0, 2])

@@ -177,6 +177,8 @@ def explore(
     search = search_record(problem, aim, dominance=dominance)
     planted = plant(params, search, state[0], problem.start, memory.seen, room)
     status = RUNNING if planted else EXHAUSTED
+    body = problem.features.index("body")
+    furthest(params, memory.keys, int(planted), room.stances, room.row, body)  # after Ctrl-C nothing is compiled
     with Interruptible() as block:
         quota, looked = FIRST_QUOTA, time.monotonic()
         while status in (RUNNING, FULL):
@@ -195,7 +197,7 @@ def explore(
         best = ways[0].codes
     else:
         n = int(state["nodes"][0])
-        node = furthest(params, memory.keys, n, room.stances, room.row, problem.features.index("body"))
+        node = furthest(params, memory.keys, n, room.stances, room.row, body)
         best = memory.trace(problem, memory.label_of(node)) if planted else np.zeros(0, np.int32)
     return Exploration(
         found=status == FOUND,
