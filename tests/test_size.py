@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_404,
+    "lines": 100_410,
     "files": 665,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 56,

@@ -1,8 +1,10 @@
 """Ctrl-C: what is asked to end is asked again until somebody answers, because an exception that is raised in compiled code may be lost."""
 
+import math
 import signal
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -15,6 +17,8 @@ AGAIN: Final = 0.4
 """Whoever has not answered is interrupted again after so long [s]."""
 PATIENCE: Final = 1.0
 """How long machine code is waited for that is loaded after Ctrl-C, to tell what there is [s]."""
+HEARD: Final = 0.1
+"""So often whoever waits looks up: a signal that another thread is given does not wake the main one, which alone hears it [s]."""
 STACK: Final = 16 << 20
 """Of a thread that compiles [B]: half a megabyte, as some systems give to one, is too little for LLVM."""
 
@@ -121,7 +125,9 @@ def abandonable(work: Callable[[], T]) -> T:
         thread.start()
     finally:
         threading.stack_size(before)
-    ended.wait(PATIENCE if _now.asked else None)  # what was left behind may hold Numba's lock
+    until = time.monotonic() + PATIENCE if _now.asked else math.inf  # what was left behind may hold Numba's lock
+    while not ended.wait(HEARD) and time.monotonic() < until:
+        pass
     if errors:
         raise errors[0]
     if not answers:  # Ctrl-C has ended the wait
