@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from numba.core.registry import CPUDispatcher
 
-from clamber.compiled import Handle, kernel, opened
+from clamber.compiled import Handle, kernel, opened, ready
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.kernel_cache import kernel_hash
 from clamber.planning.problem import codes
@@ -335,6 +335,22 @@ def test_kernels_open_a_handle_to_what_it_holds_and_it_keeps_that_alive() -> Non
     assert np.array_equal(held.place, np.where(np.arange(12.0) == 6.0, 48.0, np.arange(12.0)).reshape(3, 4))
     assert held.records["hold"].tolist() == [0, 21] and counts.tolist() == [0, 0, 0, 0, 3]
     assert all((array == -1.0).all() for array in filled)
+
+
+def test_a_kernel_that_is_ready_gives_the_same_and_keeps_its_handle_alive() -> None:
+    held = Held(np.arange(12.0).reshape(3, 4), (1.0, 0.5), np.zeros(2, np.dtype([("hold", "i8")], align=True)))
+    counts = np.zeros(5, np.int32)
+    at_once = ready(turned, Handle(held, counts, 7, 0.25), 1.0)
+    kinds = len(turned.overloads)  # type: ignore[attr-defined]
+    gc.collect()
+    filled = [np.full((3, 4), -1.0) for _ in range(100)]
+    assert [at_once(4.0) for _ in range(3)] == [34.25] * 3
+    assert held.place[1, 2] == 48.0 and held.records["hold"].tolist() == [0, 21] and counts[4] == 3
+    assert at_once(2) == 34.25 and held.place[1, 2] == 48.0  # a whole number where a real one is meant is that one
+    assert turned(Handle(held, counts, 7, 0.25), 1.0) == 34.25 and len(turned.overloads) == kinds  # type: ignore[attr-defined]
+    assert all((array == -1.0).all() for array in filled)
+    with pytest.raises(TypeError):
+        at_once("fast")
 
 
 @pytest.mark.parametrize("value", ["text", None, True, [1.0], object()])

@@ -13,7 +13,7 @@ CEILINGS = {
     "lines": 100_410,
     "files": 665,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 56,
+    f"functions with more than {MANY} parameters": 54,
     "median length of a line": 40,
     "90th percentile of the length of a line": 97,
 }

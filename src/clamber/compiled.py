@@ -1,6 +1,7 @@
 """The one way to compile: ``@kernel``, with machine code kept on disk (`kernel_cache`)."""
 
 import contextlib
+import itertools
 from collections.abc import Callable, Hashable
 from functools import partial
 from typing import Any, Final, TypeVar
@@ -99,6 +100,23 @@ class Handle:
             _types[form] = HandleType(numba.typeof(held))
         self._numba_type_ = _types[form]
 
+    def __index__(self) -> int:
+        return self.address
+
+
+def ready(function: Any, *like: Any) -> Callable[..., Any]:
+    """What calls a kernel at once, with arguments of the types of those here; handles that come first are these for good.
+
+    Numba looks at the type of each argument at each call, for half a microsecond where it is a handle. Here nobody looks any more, and an
+    array of another type or layout would be read as if it were not: for a caller's own arrays, in loops of a dozen calls a tick.
+    """
+    kinds = tuple(map(numba.typeof, like))
+    known = function.overloads.get(kinds)
+    handles = tuple(itertools.takewhile(lambda one: isinstance(one, Handle), like))
+    call = partial(function.compile(kinds) if known is None else known.entry_point, *(one.address for one in handles))
+    vars(call)["handles"] = handles  # or their memory would go
+    return call
+
 
 _types: Final[dict[Hashable, HandleType]] = {}
 """By `_form`: Numba takes a millisecond for the type of fifty arrays."""
@@ -128,11 +146,8 @@ register_model(HandleType)(models.OpaqueModel)
 
 @unbox(HandleType)  # type: ignore[untyped-decorator]
 def _take(kind: HandleType, handle: Any, call: Any) -> NativeValue:
-    """The address in a handle, as kernels have it."""
-    address = call.pyapi.object_getattr_string(handle, "address")
-    found = call.builder.inttoptr(call.pyapi.number_as_ssize_t(address), cgutils.voidptr_t)
-    call.pyapi.decref(address)
-    return NativeValue(found)
+    """The address in a handle, or an address that `ready` took from one, as kernels have it."""
+    return NativeValue(call.builder.inttoptr(call.pyapi.number_as_ssize_t(handle), cgutils.voidptr_t))
 
 
 @intrinsic  # type: ignore[untyped-decorator]

@@ -28,7 +28,6 @@ from clamber.families.walker.control.track import (
     seen_from,
     straight,
     through,
-    turn_about,
     twist_between,
 )
 from clamber.families.walker.control.walker_balance import mass_centre, mass_moment
@@ -45,6 +44,12 @@ START = np.zeros(3)
 ARM = np.array((0.0, math.pi / 2, 0.0, 0.0))  # upright over its axis
 WHOLE = Limits(guard=0.9, reserve=0.0, balance=-1.0)  # what the mechanism can, whatever the balance
 POSE = st.tuples(st.floats(-2, 2), st.floats(-2, 2), st.floats(-3, 3)).map(np.array)
+
+
+def turn_about(start: Floats, centre: Floats, angle: float, radius: float) -> Track:
+    """A turn by an angle [rad] about a point of the world, shape (2,) [m]."""
+    offset = seen_from(start, np.array((centre[0], centre[1], start[2])))
+    return Track.of(start, [angle * np.array((offset[1], -offset[0], 1.0))], radius)
 
 
 def strides(track: Track, count: int = 4, limits: Limits = WHOLE) -> list[float]:

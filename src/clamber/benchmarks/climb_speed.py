@@ -61,14 +61,14 @@ class TapedClimberPlant(ClimberPlant):
         """Start again and step through all that is written down, as fast as MuJoCo goes from Python."""
         assert self._start is not None
         super().reset(*self._start)
-        step, model, data, ctrl, pushed = self._raw_step, self.model, self._data, self._ctrl, self._pushed
+        step, model, data, ctrl, pushed = self._raw_step, self.model, self._data, self._data.ctrl, self._pushed
         for torques, push, n in self._tape:
             ctrl[:] = torques
             pushed[:] = push
             step(model, data, n)
 
     def _taped(self, model: Any, data: Any, n: int) -> None:
-        self._tape.append((self._ctrl.copy(), self._pushed.copy(), n))
+        self._tape.append((self._data.ctrl.copy(), self._pushed.copy(), n))
         self._raw_step(model, data, n)
 
 

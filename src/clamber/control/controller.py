@@ -6,6 +6,7 @@ from typing import Any, Final, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from ..compiled import ready
 from ..errors import StatedError
 from ..types import Floats, Records
 from .chain import Chain
@@ -101,7 +102,8 @@ class Controller:
         self._buffers = np.zeros(CONTROLLER_BUFFERS, np.int64)
         self._buffers[:ARRAYS] = [array.ctypes.data for array in self._arrays]
         self._buffers[[JOINTS, LAWS, MEMORY, LENGTH, SIDE]] = n, len(laws), self._memory.shape[1], length, size
-        self._nothing_felt = np.zeros((batch, AXES))
+        self._nothing_felt = felt = np.zeros((batch, AXES))
+        self._drive = ready(drive_packed, self._buffers, still_aim((0.0, 0.0)), np.zeros((batch, 2, n)), felt, felt)
         self._state_shape, self._felt_shape = (batch, 2, n), (batch, AXES)
         self._aim_shapes = ((1,), (batch,))
 
@@ -145,7 +147,7 @@ class Controller:
         felt = self._nothing_felt if wrenches is None else wrenches
         carried = self._nothing_felt if mounts is None else mounts
         try:  # as cheap as can be: the rest is done only if something is not as it should be
-            ready = (
+            fits = (
                 states.shape == self._state_shape
                 and states.dtype is FLOAT
                 and states.flags.c_contiguous
@@ -160,13 +162,13 @@ class Controller:
                 and aims.flags.c_contiguous
             )
         except AttributeError:
-            ready = False
-        if not ready:
+            fits = False
+        if not fits:
             states = self._as_floats("states", states, self._state_shape)
             felt = self._as_floats("wrenches", felt, self._felt_shape)
             carried = self._as_floats("mounts", carried, self._felt_shape)
             aims = self._as_aims(aims)
-        bad = drive_packed(self._buffers, aims, states, felt, carried)
+        bad = self._drive(self._buffers, aims, states, felt, carried)
         if bad >= 0:
             self._complain(bad, aims, states, felt, carried)
         return self.torques

@@ -5,6 +5,7 @@ from typing import TypeAlias
 
 import numpy as np
 
+from ..compiled import ready
 from ..control.chain import Chain
 from ..control.controller import MeasurementError
 from ..control.outside_law import LoopController
@@ -33,11 +34,12 @@ class Recorder:
             assert rows.dtype == source.dtype and rows.shape[1:] == source.shape
             assert rows.flags.c_contiguous and source.flags.c_contiguous
             line[BASE], line[SOURCE], line[SIZE] = rows.ctypes.data, source.ctypes.data, source.nbytes
+        self._copy_rows = ready(copy_rows, self._table, 0)
 
     def note(self, tick: int) -> None:
         """Write what the arrays hold now into row `tick` of each."""
         assert 0 <= tick < len(self._kept[0][0])
-        copy_rows(self._table, tick)
+        self._copy_rows(self._table, tick)
 
 
 class LimbGuard:

@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from ..compiled import Handle
+from ..compiled import Handle, ready
 from ..control.check_readings import (
     AGAINST,
     AGE,
@@ -106,10 +106,11 @@ class ReadingMonitor:
         """Ticks of a full command that each reading does not follow, shape (n,)."""
         self._verdicts = np.zeros(n, np.int64)
         self._patience = np.ceil(np.array((UNMOVED, FULLY_DRIVEN, YIELDS)) / period)
-        self._handle = Handle(
+        held = Handle(
             self.values, self.speeds, self.commands, self.free, self._bounds, self._patience, self._memory, self._verdicts,
             period, min(1.0, period / MEANT),
         )  # fmt: skip
+        self._check = ready(check_readings, held, 0)
         self._most = max(LEAST_BRIDGED, round(BRIDGED / period))
         self._judged = JUDGED / period
         self.findings: list[Finding] = []
@@ -171,7 +172,7 @@ class ReadingMonitor:
         """
         self._ticks += 1
         elapsed = 1 if number < 0 else self._elapsed(number)
-        if check_readings(self._handle, elapsed):
+        if self._check(elapsed):
             self.clear = 0 if self._verdicts.any() else self.clear + 1
             self._look()
         else:

@@ -9,7 +9,7 @@ import pytest
 
 from clamber.control.whole_body.law import WholeBody
 from clamber.control.whole_body.programme import HOLDS, SWINGS, Gains, Limits, Programme
-from clamber.control.whole_body.programme_kernels import write_programme
+from clamber.control.whole_body.programme_kernels import write_equations, write_rows
 from clamber.control.whole_body.tree import State, Tree
 from control.whole_body.trees import as_mujoco, posed, random_state, random_tree
 
@@ -109,7 +109,8 @@ def test_torques_are_those_of_the_solver_whether_anything_binds_or_not(seed: int
         found, wrenches = law.tick().copy(), law.wrenches.copy()
         called.append(bool(law.told))
         programme = Programme.of(tree, 9)
-        n, m = write_programme(tree, law.state, law.dynamics, law.aims, law.limits, law.gains.packed(), programme)
+        n, m = write_equations(tree, law.state, law.dynamics, law.aims, law.limits, law.gains.packed(), programme)
+        write_rows(law.aims, programme, n, m, tree.speeds)
         a = programme.a[: m * n].reshape(m, n)
         bounds = programme.upper[: n + m], programme.lower[: n + m], programme.sense[: n + m]
         x, _, flag, _ = daqp.solve(programme.h[: n * n].reshape(n, n), programme.f[:n], a, *bounds)

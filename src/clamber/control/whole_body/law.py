@@ -5,7 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ...compiled import Handle
+from ...compiled import Handle, ready
 from ...types import Floats
 from .programme import Aims, Gains, Limits, Programme
 from .programme_kernels import hold_torques, read_solution, write_and_solve
@@ -69,22 +69,14 @@ class WholeBody(BodyLaw):
         self.told: dict[str, Any] = {}
         """What the solver says of the last tick that it solved: `setup_time`, `solve_time` [s], `iterations`."""
         self._programme = Programme.of(tree, most_rows)
-        self._all = Handle(
-            tree,
-            self.state,
-            self.dynamics,
-            self.aims,
-            limits,
-            self.packed,
-            self._programme,
-            self.torques,
-            self.wrenches,
-        )
+        own = tree, self.state, self.dynamics, self.aims, limits, self.packed
+        self._all = Handle(*own, self._programme, self.torques, self.wrenches)
+        self._write_and_solve = ready(write_and_solve, self._all)
         self._views: dict[tuple[int, int], tuple[Any, ...]] = {}
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
-        n, m, solved = write_and_solve(self._all)
+        n, m, solved = self._write_and_solve()
         if solved:
             return self.torques
         x, _, flag, self.told = self._solve(*(self._views.get((n, m)) or self._view(n, m)))

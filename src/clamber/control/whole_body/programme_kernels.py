@@ -138,7 +138,7 @@ def point_tip(dynamics, aims, gains, limb, h, f):
 @kernel
 def joint_tasks(tree, state, aims, limits, gains, programme, h):
     """Joints lean to their posture, and keep away from their limits of position and speed by bounds that give way."""
-    f, lower, upper, sense = programme.f, programme.lower, programme.upper, programme.sense
+    f, lower, upper = programme.f, programme.lower, programme.upper
     rate = gains[POSTURE_RATE]
     for k in range(tree.rotor.size):
         i = FREE + k
@@ -151,19 +151,16 @@ def joint_tasks(tree, state, aims, limits, gains, programme, h):
         least = max(-limits.speed[k], gains[LIMIT_RATE] * (limits.lower[k] - q))
         lower[i] = gains[SPEED_RATE] * (min(least, 0.0) - qd)
         upper[i] = gains[SPEED_RATE] * (max(most, 0.0) - qd)
-        sense[i] = GIVES_WAY
 
 
 @kernel
-def write_programme(tree, state, dynamics, aims, limits, gains, programme):
-    """Write the programme of a tick.
+def write_equations(tree, state, dynamics, aims, limits, gains, programme):
+    """Write what of a tick's programme `solve_equations` takes: tasks, bounds of unknowns and the equations of motion.
+
+    Of H, beside whose block of accelerations nothing but the diagonal counts, and of A all else is left to `write_rows`.
 
     Args:
-        tree: A `Tree`.
-        state: A `State`.
-        dynamics: `Dynamics` of that state.
-        aims: `Aims`.
-        limits: `Limits`.
+        tree, state, dynamics, aims, limits: Records of these names, of one robot.
         gains: Of `Gains.packed`.
         programme: A `Programme`, filled.
 
@@ -179,16 +176,12 @@ def write_programme(tree, state, dynamics, aims, limits, gains, programme):
             n += aims.components[limb]
             m += aims.n_rows[limb]
     h, a = programme.h[: n * n].reshape(n, n), programme.a[: m * n].reshape(m, n)
-    f, lower, upper, sense = programme.f, programme.lower, programme.upper, programme.sense
-    for i in range(n):
+    f, lower, upper = programme.f, programme.lower, programme.upper
+    for i in range(nv):
         f[i] = 0.0
-        for j in range(n):
+        for j in range(nv):
             h[i, j] = 0.0
-        lower[i], upper[i], sense[i] = -ENDLESS, ENDLESS, 0
-    for i in range(m):
-        for j in range(n):
-            a[i, j] = 0.0
-        sense[n + i] = 0
+        lower[i], upper[i] = -ENDLESS, ENDLESS
     base_tasks(state, aims, gains, h, f)
     tip_tasks(dynamics, aims, gains, h, f)
     joint_tasks(tree, state, aims, limits, gains, programme, h)
@@ -198,21 +191,19 @@ def write_programme(tree, state, dynamics, aims, limits, gains, programme):
             a[i, j] = dynamics.mass[i, j]
         if i < FREE:
             lower[n + i] = upper[n + i] = -dynamics.bias[i]
-            sense[n + i] = EQUATION
         else:
             lower[n + i] = -limits.torque[i - FREE] - dynamics.bias[i]
             upper[n + i] = limits.torque[i - FREE] - dynamics.bias[i]
-    row = nv
     for limb in range(aims.does.size):
         if programme.at[limb] >= 0:
-            row = write_contact(dynamics, aims, gains, programme, limb, row, h, a)
+            write_contact(dynamics, aims, gains, programme, limb, h, a)
     return n, m
 
 
 @kernel
-def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
-    """Unknowns, bounds and rows of a contact that bears; returns the row behind its own."""
-    n, nv = h.shape[0], dynamics.bias.size
+def write_contact(dynamics, aims, gains, programme, limb, h, a):
+    """Unknowns and bounds of a contact that bears, and its part of the equations of motion."""
+    nv = dynamics.bias.size
     at, frame, jacobian = programme.at[limb], aims.frame[limb], dynamics.jacobian[limb]
     per_mass = 1.0 / dynamics.mass[0, 0]
     for c in range(aims.components[limb]):
@@ -221,20 +212,34 @@ def write_contact(dynamics, aims, gains, programme, limb, row, h, a):
         weight = gains[WRENCH] * (per_mass / arm) ** 2
         h[at + c, at + c] = weight + SMALL * per_mass**2
         programme.f[at + c] = -weight * aims.wrench[limb, c]
-        if aims.cap[limb] < math.inf:
-            programme.lower[at + c], programme.upper[at + c] = -arm * aims.cap[limb], arm * aims.cap[limb]
+        most = arm * aims.cap[limb] if aims.cap[limb] < math.inf else ENDLESS
+        programme.lower[at + c], programme.upper[at + c] = -most, most
+        x, y, z = frame[axis, 0], frame[axis, 1], frame[axis, 2]
         for i in range(nv):
-            a[i, at + c] = -(
-                jacobian[first, i] * frame[axis, 0]
-                + jacobian[first + 1, i] * frame[axis, 1]
-                + jacobian[first + 2, i] * frame[axis, 2]
-            )
-    for k in range(aims.n_rows[limb]):
-        for c in range(aims.components[limb]):
-            a[row, at + c] = aims.rows[limb, k, c]
-        programme.lower[n + row], programme.upper[n + row] = -ENDLESS, aims.limits[limb, k]
-        row += 1
-    return row
+            a[i, at + c] = -(jacobian[first, i] * x + jacobian[first + 1, i] * y + jacobian[first + 2, i] * z)
+
+
+@kernel
+def write_rows(aims, programme, n, m, nv):
+    """Write what `write_equations` has left of a programme: zeros of H, rows of the contacts' polytopes, kinds of all rows."""
+    h, a, sense = programme.h[: n * n].reshape(n, n), programme.a[: m * n].reshape(m, n), programme.sense
+    for i in range(n):
+        for j in range(nv if i < nv else 0, n):
+            if j != i:
+                h[i, j] = 0.0
+        sense[i] = GIVES_WAY if FREE <= i < nv else 0
+    for r in range(m):
+        sense[n + r] = EQUATION if r < FREE else 0
+    row = nv
+    for limb in range(aims.does.size):
+        at = programme.at[limb]
+        for k in range(aims.n_rows[limb] if at >= 0 else 0):
+            for j in range(n):
+                a[row, j] = 0.0
+            for c in range(aims.components[limb]):
+                a[row, at + c] = aims.rows[limb, k, c]
+            programme.lower[n + row], programme.upper[n + row] = -ENDLESS, aims.limits[limb, k]
+            row += 1
 
 
 @kernel
@@ -292,51 +297,50 @@ def solve_equations(aims, programme, n, m, nv):
 
 
 @inlined
-def meets(a, r, x, first, last, lower, upper):
-    """Whether row `r` of `a` times `x` is within bounds, of which the columns from `first` to `last` count: all others are 0."""
+def meets(row, x, first, lower, upper):
+    """Whether a row times what begins at `first` in `x` is within bounds."""
     total = 0.0
-    for i in range(first, last):
-        total += a[r, i] * x[i]
+    for i in range(row.size):
+        total += row[i] * x[first + i]
     return lower - MET <= total <= upper + MET
 
 
 @kernel
 def meets_all(aims, programme, a, n, nv):
-    """Whether `programme.x` meets every bound and every row of `a`."""
+    """Whether `programme.x` meets every bound, every equation of `a` and every row of the contacts' polytopes."""
     x, lower, upper = programme.x, programme.lower, programme.upper
     for i in range(n):
         if not lower[i] - MET <= x[i] <= upper[i] + MET:
             return False
     for r in range(nv):
-        if not meets(a, r, x, 0, n, lower[n + r], upper[n + r]):
+        if not meets(a[r], x, 0, lower[n + r], upper[n + r]):
             return False
-    row = nv
     for limb in range(aims.does.size):
-        at = programme.at[limb]
-        for _ in range(aims.n_rows[limb] if at >= 0 else 0):
-            if not meets(a, row, x, at, at + aims.components[limb], lower[n + row], upper[n + row]):
+        at, c = programme.at[limb], aims.components[limb]
+        for k in range(aims.n_rows[limb] if at >= 0 else 0):
+            if not meets(aims.rows[limb, k, :c], x, at, -ENDLESS, aims.limits[limb, k]):
                 return False
-            row += 1
     return True
 
 
 @kernel
 def write_and_solve(handle):
-    """Write the programme of a tick and, where nothing binds, read its torques.
+    """Read a tick's torques off the equations alone or, where something binds, write its whole programme.
 
     Args:
-        handle: Holds what `write_programme` takes, and torques and wrenches, filled where that is so.
+        handle: Holds what `write_equations` takes, and torques and wrenches, filled where nothing binds.
 
     Returns:
         Number of unknowns, of rows, and whether the torques are there.
     """
-    tree, state, dynamics, aims, limits, gains, programme, torques, wrenches = opened(handle)
-    n, m = write_programme(tree, state, dynamics, aims, limits, gains, programme)
-    solved = solve_equations(aims, programme, n, m, FREE + tree.rotor.size)
+    tree, state, dynamics, aims, limits, gains, programme = opened(handle)[:7]
+    nv = FREE + tree.rotor.size
+    n, m = write_equations(tree, state, dynamics, aims, limits, gains, programme)
+    solved = solve_equations(aims, programme, n, m, nv)
     if solved:
-        a = programme.a[: m * n].reshape(m, n)
-        read_torques(dynamics, aims, limits, programme, a, programme.x, torques, wrenches)
-        bear_friction(tree, state, limits, gains, programme.x, torques)
+        read_solution(handle, m, programme.x[:n])
+    else:
+        write_rows(aims, programme, n, m, nv)
     return n, m, solved
 
 

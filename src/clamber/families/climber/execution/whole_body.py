@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import ready
 from ....control.controller import Controller, still_aim
 from ....control.law_settings import LawSettings
 from ....control.records import AXES
@@ -121,6 +122,8 @@ class WholeBody:
             assert array.flags.c_contiguous
             self._table[place] = array.ctypes.data
         self._table[at.LIMBS] = n
+        self._see_tick = ready(see_tick, self._table, 0.0, 0.0, ENCODER)
+        self._command_tick = ready(command_tick, self._table, 1.0)
         longest = max(limb.length for limb in robot.limbs)
         self._field = np.array(
             (gains.potential_range * longest, gains.potential * robot.weight, MOST_REPELLED * robot.weight)
@@ -145,7 +148,7 @@ class WholeBody:
             if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
-        see_tick(self._table, angle, angle_speed, angle_from)
+        self._see_tick(self._table, angle, angle_speed, angle_from)
 
     def reckon_with(self, backlash: float) -> None:
         """Believe in another backlash of every joint from now on [rad]."""
@@ -286,7 +289,7 @@ class WholeBody:
             elif mode in ("swing_joint", "hang"):
                 job["angles"][i], job["rates"][i] = task.angles, task.rates
                 job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
-        bad = command_tick(self._table, self._part() if self.handing_over else 1.0)
+        bad = self._command_tick(self._table, self._part() if self.handing_over else 1.0)
         if bad >= 0:
             self._complain(bad)
         for i, task in enumerate(self.tasks):

@@ -5,6 +5,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....execution.plant import BodySensed, BodyTruth
 from ....sim.force_sensing import WrenchReader
 from ....sim.limb_flaws import ForceSensor, LimbFlaws
@@ -91,29 +92,34 @@ class ClimberPlant:
         names = [name for chain in chains for name in chain.joint_names]
         joints = [self.model.joint(name) for name in names]
         # views of memory that stays where it is: asking for one costs a microsecond
-        self._qpos, self._qvel, self._ctrl = self._data.qpos, self._data.qvel, self._data.ctrl
+        self._qpos, self._qvel = self._data.qpos, self._data.qvel
         self._site_places = self._data.site_xpos
         self._at = np.array([2, *(joint.qposadr[0] for joint in joints)])
         self._speed_at = np.array([2, *(joint.dofadr[0] for joint in joints)])
         self._play = np.array([joint.qposadr[0] + 1 for joint in joints]) if flaws.backlash > 0.0 else None
-        self._motors = np.array([self.model.actuator(name).id for name in names])
+        motors = np.array([self.model.actuator(name).id for name in names])
         self._sites = np.array([self.model.site(f"{limb.name} tip").id for limb in robot.limbs])
         records = np.concatenate([chain.joints for chain in chains])
         # the body's first, as in qpos
-        self._counts = np.roll(encoder_resolution(robot, flaws.encoder_counts), 1)
-        self._offsets = np.zeros(1 + len(names)) if offsets is None else offsets
+        counts = np.roll(encoder_resolution(robot, flaws.encoder_counts), 1)
         n = len(names)
-        self._limits, self._no_load = records["limit"].copy(), records["speed"].copy()
-        self._agility = (
-            2.0 * self._limits / records["rotor"]
-        )  # a load on the motor's side brings no more than the motor itself
-        self._angles, self._speeds = np.zeros((1, n + 1)), np.zeros((1, n + 1))
-        self._ring, self._before = np.zeros((flaws.delay + 1, 1, 2, n + 1)), np.zeros((1, n + 1))
-        self._states = np.zeros((1, 2, n + 1))
+        limits, no_load = records["limit"].copy(), records["speed"].copy()
+        agility = 2.0 * limits / records["rotor"]  # a load on the motor's side brings no more than the motor itself
+        self._ring, self._states = np.zeros((flaws.delay + 1, 1, 2, n + 1)), np.zeros((1, 2, n + 1))
+        encoders = Handle(
+            self._qpos, self._qvel, self._at, self._speed_at, np.zeros(1 + n) if offsets is None else offsets, np.zeros((1, n + 1)),
+            np.zeros((1, n + 1)), counts, self.period, self._ring, np.zeros((1, n + 1)), self._states,
+        )  # fmt: skip
+        self._sense = ready(sense_climber, encoders, 0)
         self._q, self._qd = (self._states[0, k, 1:].reshape(-1, 2) for k in (0, 1))
-        self._wanted, self._given, self._also = np.zeros((1, n)), np.zeros((1, n)), np.zeros((1, n))
+        self._wanted, self._given = np.zeros((1, n)), np.zeros((1, n))
         self._wanted_by_limb = self._wanted.reshape(-1, 2)
-        self._motor_speeds = np.zeros((1, n))
+        wires = Handle(
+            self._wanted, self._qvel, self._speed_at, np.zeros((1, n)), limits, no_load, agility, self._given, np.zeros((1, n)), motors,
+            self._data.ctrl,
+        )  # fmt: skip
+        self._drive = ready(command_motors, wires, self.period)
+        """Puts what the motors give at the present speeds on the joints; whether that may be held for a time [s]."""
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
         self._believed = board.positions()
         self._pegs = self._believed if pegs is None else pegs
@@ -166,10 +172,7 @@ class ClimberPlant:
 
     def sense(self) -> BodySensed:
         """Read the sensors, once a tick."""
-        sense_climber(
-            self._qpos, self._qvel, self._at, self._speed_at, self._offsets, self._angles, self._speeds, self._counts, self.period,
-            self.tick, self._ring, self._before, self._states,
-        )  # fmt: skip
+        self._sense(self.tick)
         return BodySensed(
             self._q, self._qd, self._states.item(0, 0, 0), self._states.item(0, 1, 0), self.grippers.gripped, self.tick
         )
@@ -208,8 +211,7 @@ class ClimberPlant:
     def step(self) -> None:
         """Let one control period pass."""
         self.grippers.act(self._grips)
-        steady = self._drive(self.period)
-        if steady:
+        if self._drive(self.period):
             self._step(self.model, self._data, self.flaws.steps)
         else:  # near a limit the torque follows the speed at every physics step
             for _ in range(self.flaws.steps):
@@ -218,14 +220,6 @@ class ClimberPlant:
         self.grippers.feel()
         self.tick += 1
         self._hold_limits.feel(self.time)
-
-    def _drive(self, time: float) -> bool:
-        """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
-        steady: bool = command_motors(
-            self._wanted, self._qvel, self._speed_at, self._motor_speeds, self._limits, self._no_load, self._agility,
-            time, self._given, self._also, self._motors, self._ctrl,
-        )  # fmt: skip
-        return steady
 
     def truth(self) -> BodyTruth:
         """How things really are."""

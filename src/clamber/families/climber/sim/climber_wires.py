@@ -1,22 +1,19 @@
 """The wires between a climber's electronics and its MuJoCo arrays: one call a tick each way. Kernels."""
 
-from ....compiled import kernel
+from ....compiled import kernel, opened
 from ....sim.electronics import limit_torques, read_encoders
 
 
 @kernel
-def sense_climber(
-    qpos, qvel, at, speed_at, offsets, angles, speeds, counts, period, tick, ring, before, states
-):  # fmt: skip
+def sense_climber(handle, tick):
     """Read the encoders of the body's angle and of all joints.
 
     Args:
-        qpos, qvel: Coordinates and speeds of the model.
-        at, speed_at: Where those of the encoders are in them, shape (n,).
-        offsets: What the encoders say too much, shape (n,) [rad].
-        angles, speeds: Filled with what is there, offsets included, shape (1, n).
-        counts, period, tick, ring, before, states: As in `read_encoders`.
+        handle: Holds coordinates and speeds of the model, where those of the encoders are in them, what these say too much, shape (n,)
+            [rad], room for angles and speeds with that, shape (1, n), and counts, period, ring, `before`, states of `read_encoders`.
+        tick: Number of this reading, from 0.
     """
+    qpos, qvel, at, speed_at, offsets, angles, speeds, counts, period, ring, before, states = opened(handle)
     for k in range(at.size):
         angles[0, k] = qpos[at[k]] + offsets[k]
         speeds[0, k] = qvel[speed_at[k]]
@@ -24,21 +21,16 @@ def sense_climber(
 
 
 @kernel
-def command_motors(
-    wanted, qvel, speed_at, speeds, limits, no_load, agility, time, given, also, motors, ctrl
-):  # fmt: skip
+def command_motors(handle, time):
     """Put what the motors give at the present speeds on the actuators; whether it may be held for `time` [s].
 
     Args:
-        wanted: Torques asked for, shape (1, n) [N m].
-        qvel: Speeds of the model.
-        speed_at: Where the body's angle and then the joints are in them, shape (n + 1,).
-        speeds: Filled with the joints' speeds, shape (1, n).
-        limits, no_load, agility, time: As in `limit_torques`.
-        given, also: Filled with the torques, shape (1, n).
-        motors: Which actuator is which joint's, shape (n,).
-        ctrl: Of the model; filled.
+        handle: Holds torques asked for, shape (1, n) [N m], speeds of the model, where those of the body and the joints are in them,
+            room for them, shape (1, n), limits, `no_load`, agility, `out` and `also` of `limit_torques`, actuators of the joints, and the
+            model's `ctrl`, filled.
+        time: The time [s].
     """
+    wanted, qvel, speed_at, speeds, limits, no_load, agility, given, also, motors, ctrl = opened(handle)
     for k in range(motors.size):
         speeds[0, k] = qvel[speed_at[k + 1]]
     steady = limit_torques(wanted, speeds, limits, no_load, agility, time, given, also)

@@ -6,7 +6,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.whole_body.tree import Dynamics, State, Tree
 from ....types import Floats, Ints
 from ....units import DEGREE
@@ -198,7 +198,8 @@ class BaseFilter:
         """Take in the readings of a tick, `passed` [s] after those before; arguments as those of the kernel."""
         if self._handle is None or self._handle.held[0] is not sensed or self._handle.held[2] is not body:
             self._handle = Handle(sensed, tree, body, self.believed, self._packed)
-        self.slips += follow(self._handle, passed)
+            self._follow = ready(follow, self._handle, passed)
+        self.slips += self._follow(passed)
 
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""

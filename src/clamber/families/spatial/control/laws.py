@@ -7,7 +7,7 @@ from typing import Any, ClassVar, Final, NamedTuple
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.whole_body.law import BodyLaw, WholeBody
 from ....control.whole_body.programme import Gains, Limits
 from ....control.whole_body.tree import FREE, Dynamics, State, Tree
@@ -90,11 +90,12 @@ class DirectLaw(BodyLaw):
 
     def __init__(self, tree: Tree, limits: Limits, gains: Gains, most_rows: int) -> None:
         super().__init__(tree, limits, gains, most_rows)
-        self._all = Handle(tree, self.state, self.dynamics, self.aims, limits, self.packed, Room.of(self))
+        all_of = Handle(tree, self.state, self.dynamics, self.aims, limits, self.packed, Room.of(self))
+        self._work_out = ready(type(self).kernel, all_of)
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
-        return self.torques if type(self).kernel(self._all) else self._fail()
+        return self.torques if self._work_out() else self._fail()
 
 
 class OperationalSpace(DirectLaw):
@@ -146,14 +147,14 @@ class JointImpedance(BodyLaw):
         super().__init__(tree, limits, gains, most_rows)
         self._reference = Reference.of(tree)
         held = tree, self.state, self.dynamics, self.aims, limits, self.packed, Room.of(self)
-        self._all = Handle(*held, self._reference)
+        self._work_out = ready(joint_impedance, Handle(*held, self._reference))
         self._begun = False
 
     def tick(self) -> Floats:
         """See `BodyLaw`."""
         if not self._begun:
             self._reference.state.joints[:], self._begun = self.state.joints, True
-        return self.torques if joint_impedance(self._all) else self._fail()
+        return self.torques if self._work_out() else self._fail()
 
 
 USUAL: Final = "whole-body"

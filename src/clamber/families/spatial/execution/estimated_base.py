@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.whole_body.tree import State, Tree
 from ....types import Floats, Ints
 from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
@@ -84,7 +84,8 @@ class EstimatedBase:
                     self._change(limb, hold)
         if self._told is None or self._told.held[0] is not sensed or self._told.held[-1] is not state:
             self._told = Handle(sensed, self.filter.believed, self._body.own, state)
-        tell(self._told, self._late)
+            self._tell = ready(tell, self._told, self._late)
+        self._tell(self._late)
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""

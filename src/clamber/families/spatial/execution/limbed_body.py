@@ -6,7 +6,7 @@ from typing import Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
 from ....control.whole_body.tree import FREE, Dynamics, State
 from ....control.whole_body.tree_kernels import place_bodies, tip_motion
@@ -123,8 +123,7 @@ class LimbedBody:
         self._felt, self._met, self._open, self._sought = of.felt, of.met, of.open, of.sought
         self.peaks: Floats = np.zeros(2)
         """Largest so far: `off` [m], and share of a motor's torque that was asked for [-]."""
-        self.handle = self._held()
-        """What kernels take of it."""
+        self._take_hold()
         self.places: Floats = np.zeros((limbs, 3))
         """Where the tips of limbs hold on, as believed [m], shape (limbs, 3)."""
         self.off = 0.0
@@ -284,12 +283,12 @@ class LimbedBody:
         if self._guard is not None:
             self._hold_posture(self._guard)
             return
-        self.off = bear_loads(self.handle, self.pace.touch, self.fading, self.pace.stand, self.ticks)
+        self.off = self._bear_loads(self.pace.touch, self.fading, self.pace.stand, self.ticks)
         self._press(law.tick())
         self.plant.actuate(law.torques)
         self.plant.step()
         self.ticks += 1
-        open_ones = count_open(self.handle, self.fading, self.off)
+        open_ones = self._count_open(self.fading, self.off)
         if self.off > self.pace.lost:
             raise FallenError(f"the body is {1e3 * self.off:.0f} mm from where it is to be")
         if open_ones:
@@ -369,14 +368,18 @@ class LimbedBody:
         aims.position[:], aims.rotation[:] = state.position, state.rotation
         aims.velocity[:] = aims.acceleration[:] = 0.0
 
-    def _held(self) -> Handle:
-        """What kernels of `task_kernels` take."""
+    def _take_hold(self) -> None:
+        """Have kernels work on the readings that there are."""
         law = self.law
         rest = law.tree, law.dynamics, law.packed, self.plant.period, law.torques, law.limits.torque, self.peaks
-        return Handle(self.sensed, law.aims, law.state, self._limbs, rest)
+        self.handle: Handle = Handle(self.sensed, law.aims, law.state, self._limbs, rest)
+        """What kernels of `task_kernels` take."""
+        self._find_resting = ready(find_resting, self.handle)
+        self._bear_loads = ready(bear_loads, self.handle, 0.0, 0, 0.0, 0)
+        self._count_open = ready(count_open, self.handle, 0, 0.0)
 
     def _believe(self) -> None:
         if self.handle.held[0] is not self.sensed:
-            self.handle = self._held()
-        find_resting(self.handle)
+            self._take_hold()
+        self._find_resting()
         self.belief.update(self.sensed, self._limbs.resting, self.law.state)

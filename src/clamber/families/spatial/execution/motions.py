@@ -12,7 +12,7 @@ from typing import Final
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....types import Floats
 from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
@@ -67,7 +67,7 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
     aims = body.law.aims
     aims.velocity[:] = aims.acceleration[:] = 0.0
     most = float(np.abs(body.loads if fading else loads).max()) + body.pace.weight
-    change = changing(body, loads, aims.posture.copy())
+    to_share = ready(change_aims, body.handle, changing(body, loads, aims.posture.copy()), 0.0)
     count, k = max(1, round(body.pace.shift / body.plant.period)), 0
     body.fading = limb if limb is not None and fading else -1
     try:
@@ -75,7 +75,7 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
             # what has left its ground again is loaded once it is back
             k += fading or limb is None or not body.seeks(limb)
             share = quintic(k / count)[0]
-            change_aims(body.handle, change, share)
+            to_share(share)
             if limb is not None:
                 aims.cap[limb] = max(1.0 - share if fading else share, 1e-3) * most
             body.tick()
@@ -97,9 +97,9 @@ def move_body(body: LimbedBody, motion: BodyMotion) -> None:
     quick = float(np.max(np.abs(end.joints - aims.posture) / body.law.limits.speed, initial=0.0))
     seconds = max(seconds, PEAK_SPEED * quick / SPEED, 4.0 * body.plant.period)
     path = BodyPath.between(aims.position, aims.rotation, end.pose.position, end.pose.rotation, seconds)
-    change = changing(body, end.loads, end.joints)
+    aim = ready(aim_body, body.handle, path.handle, changing(body, end.loads, end.joints), 0.0)
     for k in range(1, math.ceil(seconds / body.plant.period) + 1):
-        aim_body(body.handle, path.handle, change, k * body.plant.period)
+        aim(k * body.plant.period)
         body.tick()
     rest(body, SETTLING)
 
@@ -220,10 +220,12 @@ def _swing(body: LimbedBody, limb: int, path: TipPath, scaling: TimeScaling, pos
     pointed = bool(body.robot.contacts[limb].aligned)
     aims.points[limb] = 0.0
     change = changing(body, body.loads.copy(), posture)
+    point = ready(direction_at, path.handle, 0.0, aims.points[limb])
+    aim = ready(aim_swing, body.handle, path.handle, scaling.handle, change, limb, 0.0)
     for k in range(1, math.ceil(float(scaling.times[-1]) / period) + 1):
-        share = aim_swing(body.handle, limb, path.handle, scaling.handle, change, k * period)
+        share = aim(limb, k * period)
         if pointed:
-            direction_at(path.handle, share, aims.points[limb])
+            point(share, aims.points[limb])
         body.tick()
         if share > LOW and presses(body, limb):
             return

@@ -128,7 +128,7 @@ def aim_body(handle, path, change, time):
 
 
 @kernel
-def aim_swing(handle, limb, path, scaling, change, time):
+def aim_swing(handle, path, scaling, change, limb, time):
     """A limb that swings at a moment [s]: aims, with `change_aims`; handles as there, in `tip_at` and in `share_at`.
 
     Returns:

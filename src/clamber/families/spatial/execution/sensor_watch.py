@@ -11,7 +11,7 @@ from typing import (
 import numpy as np
 import numpy.typing as npt
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.whole_body.law import BodyLaw
 from ....control.whole_body.tree import FREE
 from ....execution.posture_guard import JointHold
@@ -172,7 +172,8 @@ class SensorWatch:
         if self._handle is None or self._handle.held[0] is not sensed:
             rest = law.tree, law.state, law.dynamics, self._limits, self._rests
             self._handle = Handle(sensed, law.torques, law.aims.does, self._owner, self._room, rest)
-        gather(self._handle, self._pace.touch, fresh)
+            self._gather = ready(gather, self._handle, self._pace.touch, True)
+        self._gather(self._pace.touch, fresh)
         try:
             monitor.see(number)
             self._ticks += 1

@@ -7,7 +7,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....control.quintic import quintic_share
 from ....execution.plant import HoldBreak, PlantStoppedError
 from ....types import Floats, Ints
@@ -161,6 +161,7 @@ class Ends:
             numbers=data.qpos,
         )
         self._given, self._handle = seen.given, Handle(seen)
+        self._nearest_holds, self._feel_ends = ready(nearest_holds, self._handle), ready(feel_ends, self._handle)
 
     @property
     def attached(self) -> Ints:
@@ -208,7 +209,7 @@ class Ends:
 
     def look(self) -> None:
         """Bring the nearest hold beneath every tip, and attach what is to attach: before the physics of a control period."""
-        limbs = nearest_holds(self._handle)
+        limbs = self._nearest_holds()
         if limbs:
             for limb, hold in enumerate(self._nearest.tolist()):
                 if not limbs >> limb & 1:
@@ -235,7 +236,7 @@ class Ends:
         Raises:
             PlantStoppedError: If the simulation has lost its numbers.
         """
-        felt = feel_ends(self._handle)
+        felt = self._feel_ends()
         if felt < 0:
             raise PlantStoppedError("the simulation has lost its numbers")
         if felt:

@@ -4,7 +4,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....types import Floats, Ints
 from ....units import GRAVITY
 from ..execution.plant import SpatialSensed
@@ -132,10 +132,11 @@ class Sensing:
             data.qpos, data.qvel, *places, np.zeros(n), gravity, np.eye(3), np.eye(3), np.zeros(3), np.zeros(6), tips[0], given, *tips[1:],
             np.zeros((depth, 2, n)), np.zeros((depth, 6)), np.zeros((depth, limbs, 6)),
         )  # fmt: skip
-        self._handle = Handle(self._read, self.sensed)
         spread = flaws.force_noise * chains.total_mass * GRAVITY
         self._spread = np.repeat((flaws.gyro_noise, flaws.accelerometer_noise), 3)
         self._force_spread = np.tile(np.repeat((spread, 0.1 * reach * spread), 3), (limbs, 1))
+        like = np.zeros(6), np.zeros((limbs, 6)), 0, 0.0, self._period
+        self._read_sensors = ready(read_sensors, Handle(self._read, self.sensed), *like)
         self.reset()
 
     def reset(self) -> None:
@@ -155,5 +156,5 @@ class Sensing:
     def read(self, tick: int) -> SpatialSensed:
         """What a controller gets at a tick."""
         passed, self._tick = (tick - self._tick) * self._period, tick
-        read_sensors(self._handle, self._noise.next(), self._force_noise.next(), tick, passed, self._period)
+        self._read_sensors(self._noise.next(), self._force_noise.next(), tick, passed, self._period)
         return self.sensed

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ....compiled import Handle
+from ....compiled import Handle, ready
 from ....sim.electronics import take_torques
 from ....sim.plant_rules import PlantError
 from ....types import Floats, Ints
@@ -87,10 +87,12 @@ class SpatialSim:
         counts = np.where(sliding | (flaws.encoder_step == 0.0), 0.0, 1.0 / max(flaws.encoder_step, 1e-12))
         self._names = names
         self._wanted, self._given = np.zeros((1, n)), np.zeros((1, n))
-        self._motors = Handle(
+        motors_of = Handle(
             data.qvel, self._speed_at, np.zeros((1, n)), self._wanted, motors.torque, motors.speed, agility, self._given,
             np.zeros((1, n)), data.ctrl,
         )  # fmt: skip
+        self._drive = ready(drive_motors, motors_of, self.period)
+        """Puts what the motors give at the present speeds on the joints; whether that may be held for a time [s]."""
         self.ends: Final = Ends(robot, world, true.deviations, flaws, model, data)
         self._sensing = Sensing(
             chains,
@@ -209,10 +211,6 @@ class SpatialSim:
             self._next_push += 1
         elif self.time >= push.start:
             self._pushed[:3] = push.force
-
-    def _drive(self, time: float) -> bool:
-        """Put what the motors give at the present speeds on the joints; whether that may be held for `time` [s]."""
-        return bool(drive_motors(self._motors, time))
 
     def _tips_at(self, qpos: Floats) -> Floats:
         """Where tips are [m], shape (limbs, 3)."""

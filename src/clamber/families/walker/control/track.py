@@ -76,12 +76,6 @@ def straight(start: Floats, direction: float, distance: float, radius: float) ->
     return Track.of(start, [np.array((distance * math.cos(direction), distance * math.sin(direction), 0.0))], radius)
 
 
-def turn_about(start: Floats, centre: Floats, angle: float, radius: float) -> Track:
-    """A turn by an angle [rad] about a point of the world, shape (2,) [m]."""
-    offset = seen_from(start, np.array((centre[0], centre[1], start[2])))
-    return Track.of(start, [angle * np.array((offset[1], -offset[0], 1.0))], radius)
-
-
 def twist_between(a: Floats, b: Floats) -> Floats:
     """Twist that takes a frame from pose `a` to pose `b` at a constant rate, the shorter way round: `along_twist` undone, shape (3,)."""
     x, y, turn = seen_from(a, b)
