@@ -35,6 +35,7 @@ from clamber.families.walker.robot import TwoFrames, WalkerRobot
 from clamber.families.walker.robot.weight import arm_places, weight_of
 from clamber.tasks.robots import load_robot
 from clamber.types import Floats
+from tracks import turn_about
 
 found = load_robot("hoshino")
 assert isinstance(found, WalkerRobot)
@@ -44,12 +45,6 @@ START = np.zeros(3)
 ARM = np.array((0.0, math.pi / 2, 0.0, 0.0))  # upright over its axis
 WHOLE = Limits(guard=0.9, reserve=0.0, balance=-1.0)  # what the mechanism can, whatever the balance
 POSE = st.tuples(st.floats(-2, 2), st.floats(-2, 2), st.floats(-3, 3)).map(np.array)
-
-
-def turn_about(start: Floats, centre: Floats, angle: float, radius: float) -> Track:
-    """A turn by an angle [rad] about a point of the world, shape (2,) [m]."""
-    offset = seen_from(start, np.array((centre[0], centre[1], start[2])))
-    return Track.of(start, [angle * np.array((offset[1], -offset[0], 1.0))], radius)
 
 
 def strides(track: Track, count: int = 4, limits: Limits = WHOLE) -> list[float]:

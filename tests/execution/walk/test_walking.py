@@ -9,13 +9,14 @@ from spring_walks import BEST, NOISE, RADIUS, stood
 from springs_walker import Ground, flat, slope
 
 from clamber.execution.sequencer import Sequencer
-from clamber.families.walker.control.track import straight, through, turn_about
+from clamber.families.walker.control.track import straight, through
 from clamber.families.walker.execution.footstep_plan import TrackCourse
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.walk_report import WalkReport
 from clamber.families.walker.execution.walk_trace import PHASES, WalkTrace
 from clamber.families.walker.execution.walking import Walking
 from clamber.types import Floats
+from tracks import turn_about
 
 TEN = math.radians(10.0)
 

@@ -5,7 +5,6 @@ from typing import Final
 
 import numpy as np
 
-from ....compiled import ready
 from ..control.felt_force import SLOW, feel_forces
 from .whole_body import WholeBody
 
@@ -42,9 +41,6 @@ class FallWatch:
         self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
         self.forces = np.zeros((body.n, 2))
         """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
-        rows = body.legs, body.held, body.q, body.qd, self._before, body.torques
-        self._rows, self._filled = rows, (self._felt, self.forces)
-        self._feel_forces = ready(feel_forces, *rows, 0.0, body.period, self._rate, *self._filled)
         self.carried = 0.0
         """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
         self.loose = 0.0
@@ -61,7 +57,10 @@ class FallWatch:
     def see(self) -> bool:
         """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
         body = self._body
-        self.carried = self._feel_forces(*self._rows, body.pose.item(2), body.period, self._rate, *self._filled)
+        self.carried = feel_forces(
+            body.legs, body.held, body.q, body.qd, self._before, body.torques,
+            body.pose.item(2), body.period, self._rate, self._felt, self.forces,
+        )  # fmt: skip
         little = self.carried < self._least
         # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
         self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
