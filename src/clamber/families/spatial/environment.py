@@ -145,6 +145,8 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             flaws = self._noise.flaws(SpatialFlaws(), drawn)
             self.plant = SpatialSim(robot, world, flaws, self._noise.deviations(robot, world, drawn))
         flaws = self.plant.flaws
+        self._stays = np.full(len(robot.limb_names), -1, np.int32)
+        """Index of the hold that each tip stays on, as sensors tell; -1: none, shape (limbs,)."""
         self._belief = EstimatedBase(
             robot,
             world,
@@ -200,8 +202,8 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
     def _believe(self) -> None:
         sensed = self.plant.sensed
         stands = np.linalg.norm(sensed.wrenches[:, :3], axis=1) > 0.02 * self._pull
-        holds = np.where(np.where(self._ends, sensed.closed == 1, stands), self._holding(), -1)
-        self._belief.update(sensed, holds, self._state)
+        self._stays[:] = np.where(np.where(self._ends, sensed.closed == 1, stands), self._holding(), -1)
+        self._belief.update(sensed, self._stays, self._state)
 
     def _distance(self) -> float:
         return float(np.linalg.norm(self._goal().standing.pose.position - self._state.position))

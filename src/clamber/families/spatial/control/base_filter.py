@@ -2,11 +2,10 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
-from ....compiled import Handle, ready
 from ....control.whole_body.tree import Dynamics, State, Tree
 from ....types import Floats, Ints
 from ....units import DEGREE
@@ -20,7 +19,6 @@ from .base_filter_kernels import (
     add_drift,
     begin_contact,
     end_contact,
-    follow,
     take_height,
 )
 
@@ -168,14 +166,12 @@ class BaseFilter:
             gain=np.zeros((3, n)),
             share=np.zeros((3, n)),
         )
-        self.slips = 0
-        """How often a tip that should stay has moved."""
         self._settings = s = settings
         noise = np.array((s.gyro, s.accelerometer, s.gyro_wander, s.accelerometer_wander, s.slip, s.yielding))
         self._row, self._turned = np.zeros(n), s.encoder**2 * 3.0
         contacts = (LEAST, s.encoder, self._turned, s.gate)
-        self._packed = Packed(gravity, noise, (*tracking, LAG), contacts, np.zeros(6))
-        self._handle: Handle | None = None
+        self.packed: Final = Packed(gravity, noise, (*tracking, LAG), contacts, np.zeros(6))
+        """As kernels read its settings."""
 
     def begin(self, rotation: Floats, position: Floats) -> None:
         """Begin at rest at a pose, with no contact."""
@@ -192,14 +188,6 @@ class BaseFilter:
         )
         for first, spread in spreads:
             b.covariance[range(first, first + 3), range(first, first + 3)] = spread**2
-        self.slips = 0
-
-    def follow(self, tree: Tree, body: Followed, sensed: Any, passed: float) -> None:
-        """Take in the readings of a tick, `passed` [s] after those before; arguments as those of the kernel."""
-        if self._handle is None or self._handle.held[0] is not sensed or self._handle.held[2] is not body:
-            self._handle = Handle(sensed, tree, body, self.believed, self._packed)
-            self._follow = ready(follow, self._handle, passed)
-        self.slips += self._follow(passed)
 
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""

@@ -292,25 +292,19 @@ def correct(belief, tips, axes, variances, turned, gate, off):
         turned: Variance of their directions [rad^2].
         gate: A tip that seems to have moved by more [m] has slipped: it stays where it is now.
         off: Scratch, shape (6,).
-
-    Returns:
-        Number of tips that have slipped.
     """
-    slipped = 0
     for limb in range(tips.shape[0]):
         if not belief.holds[limb]:
             continue
         off_contact(belief, limb, tips[limb], axes[limb], off)
         if math.sqrt(off[0] * off[0] + off[1] * off[1] + off[2] * off[2]) > gate:
             begin_contact(belief, limb, tips[limb], axes[limb], variances[limb], turned)
-            slipped += 1
             continue
         at = CONTACTS + 3 * limb
         take_vector(belief, POSITION, at, off[:3], variances[limb])
         if belief.turn_at[limb] >= 0:
             take_vector(belief, PHI, belief.turn_at[limb], off[3:], turned)
         apply_error(belief)
-    return slipped
 
 
 @kernel
@@ -331,15 +325,9 @@ def take_height(belief, limb, place, normal, variance, row):
 
 @kernel
 def tell(handle, late):
-    """The state that is believed of now.
-
-    Args:
-        handle: Holds the readings; a belief, as in `predict`, of `late` before now; joints as the encoders had them then; and the
-            state, filled.
-        late: By which sensors tell what was [s].
-    """
-    sensed, belief, own, state = opened(handle)
-    r, s = belief.rotation, state.speed
+    """The state that is believed of now, of a belief of `late` [s] before; the handle is that of `believe`."""
+    sensed, _, body, belief, _, _, _, state = opened(handle)
+    own, r, s = body.own, belief.rotation, state.speed
     for a in range(3):
         s[3 + a] = sensed.gyro[a] - belief.biases[a]
     x = late * (r[0, 0] * s[3] + r[0, 1] * s[4] + r[0, 2] * s[5])
@@ -361,15 +349,9 @@ def tell(handle, late):
 def follow(handle, passed):
     """Bring a belief up to date with the readings of a tick: joints, motion of the base, and tips that stay where they are.
 
-    Args:
-        handle: Holds the readings; the robot as it is believed to be; its joints, and what is worked out of them
-            (`base_filter.Followed`), in place; the belief, as in `predict`; and settings of the filter (`base_filter.Packed`).
-        passed: Time since the readings before [s]; 0: none has passed.
-
-    Returns:
-        Number of tips that have slipped.
+    The handle is that of `believe`; `passed` is the time since the readings before [s], 0: none has passed.
     """
-    sensed, tree, body, belief, settings = opened(handle)
+    sensed, tree, body, belief, settings, _, _, _ = opened(handle)
     if passed > 0.0:
         predict(belief, sensed.gyro, sensed.accelerometer, settings.gravity, settings.noise, passed)
     own, (kept, period, lag), (least, spread, turned, gate) = body.own, settings.tracking, settings.contacts
@@ -393,4 +375,26 @@ def follow(handle, passed):
             for k in range(own.joints.size):
                 lever += body.work.jacobian[limb, a, FREE + k] ** 2
         body.variances[limb] = least * least + spread * spread * lever / 3.0
-    return correct(belief, body.work.tip, body.work.tip_turn, body.variances, turned, gate, settings.off)
+    correct(belief, body.work.tip, body.work.tip_turn, body.variances, turned, gate, settings.off)
+
+
+@kernel
+def believe(handle, passed, late):
+    """`follow`, and `tell` where every limb is on the hold that it was on before.
+
+    Args:
+        handle: Holds the readings; the robot as it is believed to be; its joints, and what is worked out of them
+            (`base_filter.Followed`), in place; the belief, as in `predict`; settings of the filter (`base_filter.Packed`); holds that
+            limbs are on now, and were on before, shape (limbs,); and the state, filled.
+        passed, late: As in `follow` and `tell`.
+
+    Returns:
+        Whether the state is told.
+    """
+    follow(handle, passed)
+    now, on = opened(handle)[5:7]
+    for limb in range(now.size):
+        if now[limb] != on[limb]:
+            return False
+    tell(handle, late)
+    return True

@@ -21,6 +21,7 @@ class Belief(Protocol):
 
         Args:
             sensed: What the sensors say.
-            holds: Index of the hold that each limb holds on to or stands on, as believed, -1: none; shape (limbs,).
+            holds: Index of the hold that each limb holds on to or stands on, as believed, -1: none; shape (limbs,). The same array at each
+                tick, as `state` is: to look at others costs time.
             state: Written.
         """

@@ -8,7 +8,7 @@ from ....compiled import Handle, ready
 from ....control.whole_body.tree import State, Tree
 from ....types import Floats, Ints
 from ..control.base_filter import LEAST, BaseFilter, FilterSettings, Followed
-from ..control.base_filter_kernels import tell
+from ..control.base_filter_kernels import believe, tell
 from ..robot.parts import Motors
 from ..robot.robot import SpatialRobot
 from ..world.solids import frame_about
@@ -58,34 +58,33 @@ class EstimatedBase:
         self._map, self._normals = world.places.copy(), world.normals.copy()
         self._bears = [end.bears() for end in robot.ends]
         self._spreads = np.full(len(world.holds), settings.hold)
-        self._on = [-1] * limbs
+        self._on = np.full(limbs, -1, np.int32)
         self._number = -1
-        self._told: Handle | None = None
+        self._handle: Handle | None = None
         motors = Motors.of(robot)
         self._body = Followed.of(tree, FIRM * motors.torque, np.where(motors.sliding, 0.0, play / 2.0))
 
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """See `Belief`."""
         self.filter.begin(pose.rotation, pose.position)
-        self._on = [-1] * len(self._on)
+        self._on[:] = -1
         self._body.own.joints[:] = sensed.joints[0]
         self._body.own.speed[:] = self._body.pushed[:] = 0.0
         self._number = int(sensed.number[0])
 
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """See `Belief`."""
-        passed = int(sensed.number[0]) - self._number
-        self._number += passed
-        self.filter.follow(self._tree, self._body, sensed, passed * self._period)
-        now = holds.tolist()
-        if now != self._on:
-            for limb, hold in enumerate(now):
-                if hold != self._on[limb]:
-                    self._change(limb, hold)
-        if self._told is None or self._told.held[0] is not sensed or self._told.held[-1] is not state:
-            self._told = Handle(sensed, self.filter.believed, self._body.own, state)
-            self._tell = ready(tell, self._told, self._late)
-        self._tell(self._late)
+        before, self._number = self._number, sensed.number.item(0)
+        handle = self._handle
+        if handle is None or not (handle.held[0] is sensed and handle.held[5] is holds and handle.held[7] is state):
+            held = self._tree, self._body, self.filter.believed, self.filter.packed, holds, self._on, state
+            self._handle = handle = Handle(sensed, *held)
+            self._believe = ready(believe, handle, self._period, self._late)
+        if self._believe((self._number - before) * self._period, self._late):
+            return
+        for limb in np.flatnonzero(holds != self._on).tolist():
+            self._change(limb, int(holds[limb]))
+        tell(handle, self._late)
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""
