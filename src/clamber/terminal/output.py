@@ -103,7 +103,7 @@ def _tell_compilation(folder: Path, every: float = 10.0, ended: Event = _command
     while not ended.wait(0.5):
         now, count = time.monotonic(), _count_kernels(folder)
         if not announced and count > seen and not ended.is_set():  # it may have ended while they were counted
-            stderr().print("compiling the kernels, once: about a minute, two where the machine is busy")
+            stderr().print("compiling the kernels, once: one or two minutes, more where the machine is busy")
             announced, told = True, now
         elif announced and now - told >= every:
             if count > seen:

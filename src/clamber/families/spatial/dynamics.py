@@ -45,6 +45,7 @@ from .trials.trials import (
 
 if TYPE_CHECKING:
     from rich.console import Console
+from .trials.warm_up import CARRYING
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +70,7 @@ class SpatialDynamics(Dynamics):
 
     kind = "run"
     past = "carried out"
+    compiled = (CARRYING,)
     replayed = ReplayedRun
 
     def unused(self, work: SpatialTask) -> frozenset[str]:
