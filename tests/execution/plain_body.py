@@ -63,7 +63,7 @@ class PlainBody(WholeBody):
             pulls, forces = (part * after + (1.0 - part) * before for before, after in both)
         else:
             pulls, forces = share(self.held)
-        pressed, loads = np.zeros(n, np.int64), self._arrays[at.LOADS]
+        pressed, loads = np.zeros(n, np.int64), self.work.loads
         for i, task in enumerate(self.tasks):
             torques, now = self.torques[i], np.zeros(2)
             if task.mode == "stance":

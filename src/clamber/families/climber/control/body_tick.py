@@ -1,21 +1,20 @@
 """A climber's whole control of one tick in two calls: where the body is, and the torques of all limbs. Kernels.
 
-Thirty arrays cost more to hand over than a tick, so they come as one table of addresses; their owner keeps them alive. One row a limb. Laws
-are numbers here only inside the settings of the limbs' controllers (`drive`).
+All that a tick works on comes in one handle. Laws are numbers here only inside the settings of the limbs' controllers (`drive`).
 """
 
 import math
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ....compiled import carray, inlined, kernel, pointer
-from ....control.drive import BUFFERS_TORQUES, CONTROLLER_BUFFERS, drive_packed
-from ....control.records import AIM, AXES
+from ....compiled import carray, inlined, kernel, opened, pointer
+from ....control.drive import BUFFERS_TORQUES, drive_packed
+from ....types import Floats, Records
 from .backlash import follow_play, pull_torques, weight_loads, weight_moment
 from .body import WRENCH, command_contact_forces, drag_tips
 from .body_estimate import estimate_body
-from .hook_forces import MOST_CUTS
-from .planar_limb import PLANAR_LIMB
 
 STANCE, UNLOADED_CONTACT, SWING_CARTESIAN, SWING_JOINT, CONTACT_PUSH, HANG = range(6)
 """Modes of a limb."""
@@ -67,52 +66,92 @@ LIMB_TASK = np.dtype(
 )
 """What one limb is to do."""
 
-# places in the table of addresses
-(
-    LEGS, SETTINGS, JOBS, DRIVES, Q, QD, LAGGED, HELD, WEIGHTS, HOLDS, ARMS, TIPS, TIP_SPEEDS, POSE, TWIST, AIMED, AIM_SPEED, PLAY,
-    SETTLED_TIPS, SETTLED, SPARE_SPEEDS, SPARE_TWIST, CARRIERS, PULLS, FORCES, OLD_PULLS, OLD_FORCES, CUTS, DRAGS, LEAST, PRESSED,
-    LOADS, LOADS_NOW, LAG, WANTED, FED, LIMB_AIM, STATES, FELT, TORQUES, SURE, LIMBS,
-) = range(42)  # fmt: skip
-TABLE = 42
 
+class BodyWork(NamedTuple):
+    """What a tick works on: a row a limb, shape (n, 2), where nothing else is said; a NamedTuple, as kernels take it."""
 
-@inlined
-def _rows(table, place, width):
-    return carray(pointer(table[place]), (table[LIMBS], width), np.float64)
-
-
-@inlined
-def _line(table, place, size):
-    return carray(pointer(table[place]), size, np.float64)
+    legs: Records
+    """Of `PLANAR_LIMB`, shape (n,)."""
+    gains: Records
+    """Of `BODY`, shape (1,)."""
+    jobs: Records
+    """Of `LIMB_TASK`, shape (n,)."""
+    drives: NDArray[np.int64]
+    """Of the laws that hold and of those that move: `Controller.buffers`, shape (2, n, CONTROLLER_BUFFERS)."""
+    q: Floats
+    qd: Floats
+    lagged: Floats
+    """Joint angles and speeds by the encoders, and those angles with the play counted [rad], [rad/s]."""
+    held: NDArray[np.int64]
+    weights: Floats
+    """1 for limbs that hold, and how much each says about where the body is, shape (n,)."""
+    holds: Floats
+    arms: Floats
+    """Holds in the world, and from the body to them [m]."""
+    tips: Floats
+    tip_speeds: Floats
+    settled_tips: Floats
+    spare_speeds: Floats
+    """In the body frame by the encoders, and with the play counted [m], [m/s]."""
+    pose: Floats
+    twist: Floats
+    settled: Floats
+    spare_twist: Floats
+    """Of the body, likewise, shape (3,)."""
+    aimed: Floats
+    aim_speed: Floats
+    """Of the body, shape (3,)."""
+    play: Floats
+    sure: Floats
+    """Lag of each joint's output [rad], and how sure that is [-]."""
+    carriers: NDArray[np.int64]
+    """1 for those that carry, before and after a hand-over, shape (2, n)."""
+    pulls: Floats
+    forces: Floats
+    old_pulls: Floats
+    old_forces: Floats
+    """What tips do for the body: by their motion and by their torques; and what they did before a hand-over [N]."""
+    cuts: Floats
+    drags: Floats
+    least: Floats
+    """As `command_contact_forces` takes them."""
+    pressed: NDArray[np.int64]
+    """1 for limbs that press against something, shape (n,)."""
+    loads: Floats
+    loads_now: Floats
+    lag: Floats
+    """As `follow_play` and `pull_torques` take them."""
+    wanted: Floats
+    fed: Floats
+    """What the body is to be given, and of that what is fed forward, shape (3,)."""
+    aim: Records
+    states: Floats
+    felt: Floats
+    """What a limb's law is given: of `AIM`, shape (1,); joints; nothing."""
+    torques: Floats
+    """Filled [N m]."""
 
 
 @kernel
-def see_tick(table, angle, angle_speed, angle_from):
+def see_tick(handle, angle, angle_speed, angle_from):
     """Estimate where the body is, by the encoders alone and with the play of the joints counted.
 
     Args:
-        table: Addresses, shape (TABLE,).
+        handle: Holds `BodyWork`.
         angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
         angle_from: As in `estimate_body`.
     """
-    n = table[LIMBS]
-    legs = carray(pointer(table[LEGS]), n, PLANAR_LIMB)
-    q = _rows(table, Q, 2)
-    qd = _rows(table, QD, 2)
-    lagged = _rows(table, LAGGED, 2)
-    play = _rows(table, PLAY, 2)
-    weights = _line(table, WEIGHTS, n)
-    holds = _rows(table, HOLDS, 2)
-    for i in range(n):
+    work = opened(handle)[0]
+    for i in range(work.legs.size):
         for k in range(2):
-            lagged[i, k] = q[i, k] - play[i, k]
+            work.lagged[i, k] = work.q[i, k] - work.play[i, k]
     estimate_body(
-        legs, q, qd, weights, holds, angle, angle_speed, angle_from,
-        _rows(table, TIPS, 2), _rows(table, TIP_SPEEDS, 2), _line(table, POSE, 3), _line(table, TWIST, 3),
+        work.legs, work.q, work.qd, work.weights, work.holds, angle, angle_speed, angle_from,
+        work.tips, work.tip_speeds, work.pose, work.twist,
     )  # fmt: skip
     estimate_body(
-        legs, lagged, qd, weights, holds, angle, angle_speed, angle_from,
-        _rows(table, SETTLED_TIPS, 2), _rows(table, SPARE_SPEEDS, 2), _line(table, SETTLED, 3), _line(table, SPARE_TWIST, 3),
+        work.legs, work.lagged, work.qd, work.weights, work.holds, angle, angle_speed, angle_from,
+        work.settled_tips, work.spare_speeds, work.settled, work.spare_twist,
     )  # fmt: skip
 
 
@@ -202,93 +241,65 @@ def _even_out(loads, now, part):
 
 
 @inlined
-def _wish(table):
+def _wish(work):
     """What the body is to be given: what brings it to its aim, and the weight that is fed forward."""
-    n = table[LIMBS]
-    legs = carray(pointer(table[LEGS]), n, PLANAR_LIMB)
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    holds = _rows(table, HOLDS, 2)
-    arms = _rows(table, ARMS, 2)
-    pose = _line(table, POSE, 3)
-    twist = _line(table, TWIST, 3)
-    aimed = _line(table, AIMED, 3)
-    aim_speed = _line(table, AIM_SPEED, 3)
-    wanted = _line(table, WANTED, 3)
-    for i in range(n):
-        arms[i, 0] = holds[i, 0] - pose[0]
-        arms[i, 1] = holds[i, 1] - pose[1]
+    gains, pose, wanted = work.gains[0], work.pose, work.wanted
+    for i in range(work.legs.size):
+        for k in range(2):
+            work.arms[i, k] = work.holds[i, k] - pose[k]
     for k in range(3):
         if gains.mapping == WRENCH:
-            wanted[k] = gains.stiffness[k] * (aimed[k] - pose[k])
+            wanted[k] = gains.stiffness[k] * (work.aimed[k] - pose[k])
         else:
-            wanted[k] = gains.kp[k] * (aimed[k] - pose[k]) + gains.kd[k] * (aim_speed[k] - twist[k])
+            wanted[k] = gains.kp[k] * (work.aimed[k] - pose[k]) + gains.kd[k] * (work.aim_speed[k] - work.twist[k])
     if gains.mapping == WRENCH:
-        drag_tips(_rows(table, TIP_SPEEDS, 2), pose[2], arms, aim_speed, gains.damping, _rows(table, DRAGS, 2))
-    moment = weight_moment(legs, _rows(table, Q, 2), pose[2])
-    _feed(
-        carray(pointer(table[JOBS]), n, LIMB_TASK), _rows(table, SETTLED_TIPS, 2), _line(table, SETTLED, 3), gains, moment,
-        _line(table, FED, 3),
-    )  # fmt: skip
+        drag_tips(work.tip_speeds, pose[2], work.arms, work.aim_speed, gains.damping, work.drags)
+    moment = weight_moment(work.legs, work.q, pose[2])
+    _feed(work.jobs, work.settled_tips, work.settled, gains, moment, work.fed)
 
 
 @inlined
-def _command_contact_forces(table, carriers, pulls, forces):
+def _command_contact_forces(work, carriers, pulls, forces):
     """What the tips of these carriers do for it."""
-    n = table[LIMBS]
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
+    gains = work.gains[0]
     command_contact_forces(
-        carray(pointer(table[LEGS]), n, PLANAR_LIMB), _rows(table, Q, 2), carriers, _line(table, POSE, 3), _rows(table, ARMS, 2),
-        _line(table, WANTED, 3), _line(table, FED, 3), gains.mapping, gains.limit, _line(table, LEAST, n),
-        _rows(table, DRAGS, 2), carray(pointer(table[CUTS]), (MOST_CUTS, 2), np.float64), pulls, forces,
+        work.legs, work.q, carriers, work.pose, work.arms, work.wanted, work.fed, gains.mapping, gains.limit, work.least, work.drags,
+        work.cuts, pulls, forces,
     )  # fmt: skip
 
 
 @inlined
-def _share(table, handed):
+def _share(work, handed):
     """What each holding tip does for the body; while the load passes, between what it did before and will do after."""
-    n = table[LIMBS]
-    pulls = _rows(table, PULLS, 2)
-    forces = _rows(table, FORCES, 2)
+    pulls, forces, old_pulls, old_forces = work.pulls, work.forces, work.old_pulls, work.old_forces
     if handed < 1.0:
-        carriers = carray(pointer(table[CARRIERS]), (2, n), np.int64)
-        old_pulls = _rows(table, OLD_PULLS, 2)
-        old_forces = _rows(table, OLD_FORCES, 2)
-        _command_contact_forces(table, carriers[0], old_pulls, old_forces)
-        _command_contact_forces(table, carriers[1], pulls, forces)
-        for i in range(n):
+        _command_contact_forces(work, work.carriers[0], old_pulls, old_forces)
+        _command_contact_forces(work, work.carriers[1], pulls, forces)
+        for i in range(work.legs.size):
             for k in range(2):
                 # cones are convex: between two loads that keep a hook on, all do
                 pulls[i, k] += (1.0 - handed) * (old_pulls[i, k] - pulls[i, k])
                 forces[i, k] += (1.0 - handed) * (old_forces[i, k] - forces[i, k])
     else:
-        _command_contact_forces(table, carray(pointer(table[HELD]), n, np.int64), pulls, forces)
+        _command_contact_forces(work, work.held, pulls, forces)
 
 
 @inlined
-def _by_law(table, i, torques):
+def _by_law(work, i, torques):
     """Torques of a limb whose law holds or moves its tip, its own weight carried; whether the law was given what is not finite."""
-    n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
-    drives = carray(pointer(table[DRIVES]), (2, n, CONTROLLER_BUFFERS), np.int64)
-    aims = carray(pointer(table[LIMB_AIM]), 1, AIM)
-    states = carray(pointer(table[STATES]), (1, 2, 2), np.float64)
-    felt = carray(pointer(table[FELT]), (1, AXES), np.float64)
-    q = _rows(table, Q, 2)
-    qd = _rows(table, QD, 2)
-    pose = _line(table, POSE, 3)
+    leg, gains, job, q, qd = work.legs[i], work.gains[0], work.jobs[i], work.q, work.qd
+    states, pose = work.states, work.pose
     states[0, 0, 0] = q[i, 0]
     states[0, 0, 1] = q[i, 1]
     states[0, 1, 0] = qd[i, 0]
     states[0, 1, 1] = qd[i, 1]
     _aim_limb(
-        job, leg, _rows(table, TIPS, 2)[i], _rows(table, TIP_SPEEDS, 2)[i], _rows(table, SETTLED_TIPS, 2)[i], pose,
-        _line(table, TWIST, 3), _line(table, SETTLED, 3), _rows(table, PULLS, 2)[i], _rows(table, FORCES, 2)[i], aims[0],
+        job, leg, work.tips[i], work.tip_speeds[i], work.settled_tips[i], pose,
+        work.twist, work.settled, work.pulls[i], work.forces[i], work.aim[0],
     )  # fmt: skip
     law = 0 if job.mode == STANCE else 1
-    bad = drive_packed(drives[law, i], aims, states, felt, felt) >= 0
-    given = carray(pointer(drives[law, i, BUFFERS_TORQUES]), 2, np.float64)
+    bad = drive_packed(work.drives[law, i], work.aim, states, work.felt, work.felt) >= 0
+    given = carray(pointer(work.drives[law, i, BUFFERS_TORQUES]), 2, np.float64)
     part = 1.0
     if job.mode == SWING_CARTESIAN:
         # a joint cut alone would turn the force at the tip, and wedge a hook on the hold that it leaves
@@ -301,26 +312,17 @@ def _by_law(table, i, torques):
 
 
 @inlined
-def _by_pull(table, i, torques):
+def _by_pull(work, i, torques):
     """Torques of a limb that pulls on something with a force, and what they say of the play's sides."""
-    n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
-    q = _rows(table, Q, 2)
-    qd = _rows(table, QD, 2)
-    pose = _line(table, POSE, 3)
-    loads_now = _line(table, LOADS_NOW, 2)
+    leg, gains, job, q, pose, loads_now = work.legs[i], work.gains[0], work.jobs[i], work.q, work.pose, work.loads_now
     if job.mode == UNLOADED_CONTACT:
-        force = _clinging(
-            job, leg, q[i], _rows(table, SETTLED_TIPS, 2)[i], pose, _line(table, SETTLED, 3), gains.cling
-        )  # fmt: skip
+        force = _clinging(job, leg, q[i], work.settled_tips[i], pose, work.settled, gains.cling)
         damping = CLING_DAMPING
     else:
         force = (job.force[0], job.force[1])
         damping = job.damping
-    pull_torques(leg, q[i], qd[i], pose, _line(table, TWIST, 3), force, damping, torques, loads_now)
-    _even_out(_rows(table, LOADS, 2)[i], loads_now, _line(table, LAG, 3)[2])
+    pull_torques(leg, q[i], work.qd[i], pose, work.twist, force, damping, torques, loads_now)
+    _even_out(work.loads[i], loads_now, work.lag[2])
     most = gains.firm if job.pressed else gains.gentle
     for k in range(2):
         torques[k] = min(max(torques[k], -most), most)
@@ -333,14 +335,9 @@ def _rub(damping, friction, rate):
 
 
 @inlined
-def _by_joints(table, i, torques):
+def _by_joints(work, i, torques):
     """Torques of a limb whose joints go to angles, or hang there under a load."""
-    n = table[LIMBS]
-    leg = carray(pointer(table[LEGS]), n, PLANAR_LIMB)[i]
-    gains = carray(pointer(table[SETTINGS]), 1, BODY)[0]
-    job = carray(pointer(table[JOBS]), n, LIMB_TASK)[i]
-    q = _rows(table, Q, 2)
-    qd = _rows(table, QD, 2)
+    leg, gains, job, q, qd = work.legs[i], work.gains[0], work.jobs[i], work.q, work.qd
     torques[0] = leg.share1 * (gains.joint_kp * (job.angles[0] - q[i, 0]) + gains.joint_kd * (job.rates[0] - qd[i, 0]))
     torques[1] = leg.share2 * (gains.joint_kp * (job.angles[1] - q[i, 1]) + gains.joint_kd * (job.rates[1] - qd[i, 1]))
     if job.mode == HANG:
@@ -348,42 +345,37 @@ def _by_joints(table, i, torques):
         torques[1] += job.loads[1]
     else:
         # by its model: a limb that lags leaves its way, and knocks against what it was to go round
-        shoulder, elbow = weight_loads(leg, q[i], _line(table, POSE, 3)[2])
+        shoulder, elbow = weight_loads(leg, q[i], work.pose[2])
         torques[0] += leg.rotor1 * job.accelerations[0] + shoulder + _rub(leg.damping1, leg.friction1, job.rates[0])
         torques[1] += leg.rotor2 * job.accelerations[1] + elbow + _rub(leg.damping2, leg.friction2, job.rates[1])
 
 
 @kernel
-def command_tick(table, handed):
+def command_tick(handle, handed):
     """Torques of all limbs.
 
     Args:
-        table: Addresses, shape (TABLE,).
+        handle: Holds `BodyWork`.
         handed: Part of the load that has passed from the carriers of before to those of after; 1 where it is not passing.
 
     Returns:
         The first limb whose law was given something that is not finite, -1 where there is none.
     """
-    n = table[LIMBS]
-    jobs = carray(pointer(table[JOBS]), n, LIMB_TASK)
-    pressed = carray(pointer(table[PRESSED]), n, np.int64)
-    torques = _rows(table, TORQUES, 2)
-    _wish(table)
-    _share(table, handed)
+    work = opened(handle)[0]
+    _wish(work)
+    _share(work, handed)
     bad = -1
-    for i in range(n):
-        mode = jobs[i].mode
+    for i in range(work.legs.size):
+        mode = work.jobs[i].mode
         if mode in (STANCE, SWING_CARTESIAN):
-            if _by_law(table, i, torques[i]) and bad < 0:
+            if _by_law(work, i, work.torques[i]) and bad < 0:
                 bad = i
         elif mode in (UNLOADED_CONTACT, CONTACT_PUSH):
-            _by_pull(table, i, torques[i])
+            _by_pull(work, i, work.torques[i])
         else:
-            _by_joints(table, i, torques[i])
-        pressed[i] = mode == UNLOADED_CONTACT or (mode == CONTACT_PUSH and jobs[i].pressed != 0)
+            _by_joints(work, i, work.torques[i])
+        work.pressed[i] = mode == UNLOADED_CONTACT or (mode == CONTACT_PUSH and work.jobs[i].pressed != 0)
     follow_play(
-        carray(pointer(table[LEGS]), n, PLANAR_LIMB), _rows(table, Q, 2), _rows(table, QD, 2),
-        carray(pointer(table[HELD]), n, np.int64), _rows(table, FORCES, 2), _line(table, POSE, 3)[2], pressed,
-        _rows(table, LOADS, 2), _line(table, LAG, 3), _rows(table, PLAY, 2), _rows(table, SURE, 2),
+        work.legs, work.q, work.qd, work.held, work.forces, work.pose[2], work.pressed, work.loads, work.lag, work.play, work.sure,
     )  # fmt: skip
     return bad

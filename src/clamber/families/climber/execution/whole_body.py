@@ -6,15 +6,14 @@ from typing import Final
 
 import numpy as np
 
-from ....compiled import ready
+from ....compiled import Handle, ready
 from ....control.controller import Controller, still_aim
 from ....control.law_settings import LawSettings
 from ....control.records import AXES
 from ....types import Floats
-from ..control import body_tick as at
 from ..control.backlash import weight_moment
 from ..control.body_estimate import ENCODER
-from ..control.body_tick import LIMB_TASK, TABLE, command_tick, see_tick
+from ..control.body_tick import LIMB_TASK, BodyWork, command_tick, see_tick
 from ..control.hook_forces import MOST_CUTS, pair_forces
 from ..control.limb_chain import chain_of_limb, legs_of
 from ..control.virtual_potential import repel_limbs
@@ -102,28 +101,21 @@ class WholeBody:
         self._jobs = np.zeros(n, LIMB_TASK)
         self._job = {name: self._jobs[name] for name in LIMB_TASK.names or ()}
         drives = np.array([[law.buffers for law in laws] for laws in (self._pullers, self._reachers)])
-        self._arrays = {
-            at.LEGS: self.legs, at.SETTINGS: records_of(gains, robot), at.JOBS: self._jobs, at.DRIVES: drives,
-            at.Q: self.q, at.QD: self.qd, at.LAGGED: np.zeros((n, 2)), at.HELD: self.held,
-            at.WEIGHTS: self._weights, at.HOLDS: self._holds, at.ARMS: np.zeros((n, 2)),
-            at.TIPS: self.tips, at.TIP_SPEEDS: self.tip_speeds, at.POSE: self.pose, at.TWIST: self.twist,
-            at.AIMED: self.aim, at.AIM_SPEED: self.aim_speed, at.PLAY: self.play,
-            at.SETTLED_TIPS: self.settled_tips, at.SETTLED: self.settled,
-            at.SPARE_SPEEDS: np.zeros((n, 2)), at.SPARE_TWIST: np.zeros(3), at.CARRIERS: self._carriers,
-            at.PULLS: np.zeros((n, 2)), at.FORCES: np.zeros((n, 2)),
-            at.OLD_PULLS: np.zeros((n, 2)), at.OLD_FORCES: np.zeros((n, 2)),
-            at.CUTS: self._cuts, at.DRAGS: np.zeros((n, 2)), at.LEAST: np.full(n, gains.alpha),
-            at.PRESSED: np.zeros(n, np.int64), at.LOADS: np.zeros((n, 2)), at.LAG: self._lag, at.LOADS_NOW: np.zeros(2),
-            at.WANTED: np.zeros(3), at.FED: np.zeros(3), at.LIMB_AIM: self._aim, at.STATES: self._states,
-            at.FELT: np.zeros((1, AXES)), at.TORQUES: self.torques, at.SURE: self.sure,
-        }  # fmt: skip
-        self._table = np.zeros(TABLE, np.int64)
-        for place, array in self._arrays.items():
-            assert array.flags.c_contiguous
-            self._table[place] = array.ctypes.data
-        self._table[at.LIMBS] = n
-        self._see_tick = ready(see_tick, self._table, 0.0, 0.0, ENCODER)
-        self._command_tick = ready(command_tick, self._table, 1.0)
+        self.work: Final = BodyWork(
+            legs=self.legs, gains=records_of(gains, robot), jobs=self._jobs, drives=drives,
+            q=self.q, qd=self.qd, lagged=np.zeros((n, 2)), held=self.held, weights=self._weights,
+            holds=self._holds, arms=np.zeros((n, 2)), tips=self.tips, tip_speeds=self.tip_speeds,
+            settled_tips=self.settled_tips, spare_speeds=np.zeros((n, 2)),
+            pose=self.pose, twist=self.twist, settled=self.settled, spare_twist=np.zeros(3),
+            aimed=self.aim, aim_speed=self.aim_speed, play=self.play, sure=self.sure, carriers=self._carriers,
+            pulls=np.zeros((n, 2)), forces=np.zeros((n, 2)), old_pulls=np.zeros((n, 2)), old_forces=np.zeros((n, 2)),
+            cuts=self._cuts, drags=np.zeros((n, 2)), least=np.full(n, gains.alpha), pressed=np.zeros(n, np.int64),
+            loads=np.zeros((n, 2)), loads_now=np.zeros(2), lag=self._lag, wanted=np.zeros(3), fed=np.zeros(3),
+            aim=self._aim, states=self._states, felt=np.zeros((1, AXES)), torques=self.torques,
+        )  # fmt: skip
+        """What a tick works on, these arrays among it."""
+        work = Handle(self.work)
+        self._see_tick, self._command_tick = ready(see_tick, work, 0.0, 0.0, ENCODER), ready(command_tick, work, 1.0)
         longest = max(limb.length for limb in robot.limbs)
         self._field = np.array(
             (gains.potential_range * longest, gains.potential * robot.weight, MOST_REPELLED * robot.weight)
@@ -148,7 +140,7 @@ class WholeBody:
             if task.holds:
                 self._holds[i] = task.place
         self._pass_load()
-        self._see_tick(self._table, angle, angle_speed, angle_from)
+        self._see_tick(angle, angle_speed, angle_from)
 
     def reckon_with(self, backlash: float) -> None:
         """Believe in another backlash of every joint from now on [rad]."""
@@ -289,7 +281,7 @@ class WholeBody:
             elif mode in ("swing_joint", "hang"):
                 job["angles"][i], job["rates"][i] = task.angles, task.rates
                 job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
-        bad = self._command_tick(self._table, self._part() if self.handing_over else 1.0)
+        bad = self._command_tick(self._part() if self.handing_over else 1.0)
         if bad >= 0:
             self._complain(bad)
         for i, task in enumerate(self.tasks):
