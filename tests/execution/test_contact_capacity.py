@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.climber import Climber
 from clamber.families.climber.execution.contact_capacity import load_capacity
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, climbable, lay_course
@@ -35,7 +36,7 @@ def test_a_stance_is_borne_as_well_as_by_a_robot_that_stands_there(step: int) ->
     climber.start(
         course.pose(step), course.holds(step), idle=course.idle(step), elbows=dict(zip(names, sides, strict=True))
     )
-    told = load_capacity(task.robot, task.world.positions(), course.stances[step], sides)
+    told = load_capacity(task.robot, legs_of(task.robot), task.world.positions(), course.stances[step], sides)
     # the free or idle limb's own weight hangs elsewhere there [N]
     assert told == pytest.approx(climber.body.stands(course.pose(step)), abs=1.0)
 
@@ -48,11 +49,14 @@ def test_a_hook_that_would_pull_up_bears_nothing_and_its_elbow_stays_on_its_side
     stance["y"] += 0.45
     places = course.task.world.positions()
     sides = [np.where(np.arange(3) == carriers[0], sign, course.elbows[0]) for sign in (1, -1)]
-    assert max(load_capacity(course.task.robot, places, stance, each) for each in sides) < -5.0
+    assert (
+        max(load_capacity(course.task.robot, legs_of(course.task.robot), places, stance, each) for each in sides) < -5.0
+    )
 
 
 def test_a_limb_without_a_posture_bears_nothing() -> None:
     course = a_rung()
     stance = course.stances[0].copy()
     stance["y"] -= 3.0
-    assert load_capacity(course.task.robot, course.task.world.positions(), stance, course.elbows[0]) == -math.inf
+    legs, places = legs_of(course.task.robot), course.task.world.positions()
+    assert load_capacity(course.task.robot, legs, places, stance, course.elbows[0]) == -math.inf

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.contact_capacity import load_capacity
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.postures import postures
@@ -27,7 +28,7 @@ def test_two_hooks_bear_the_body_in_every_stance(course: ExecutablePlan) -> None
     """By the controller's own reckoning: where they lacked 6 N, one climb in eight fell."""
     places = course.task.world.positions()
     lack = [
-        load_capacity(course.task.robot, places, stance, sides)
+        load_capacity(course.task.robot, legs_of(course.task.robot), places, stance, sides)
         for stance, sides in zip(course.stances, course.elbows, strict=True)
     ]
     assert min(lack) > -2.5

@@ -7,16 +7,16 @@ import numpy as np
 from ....types import Floats, Ints, Records
 from ..control.backlash import weight_moment
 from ..control.hook_forces import MOST_CUTS, pair_forces
-from ..control.limb_chain import legs_of
 from ..robot.robot import LimbedRobot
 from .postures import postures
 
 
-def load_capacity(robot: LimbedRobot, places: Floats, stance: Records, sides: Ints) -> float:
+def load_capacity(robot: LimbedRobot, legs: Records, places: Floats, stance: Records, sides: Ints) -> float:
     """How well the worst hook or motor of two carrying limbs is off under the weight [N]: negative if none of the splits meets all wishes.
 
     Args:
         robot: The climber.
+        legs: Its `legs_of`.
         places: Of the board's holds, world frame, shape (n_holds, 2) [m].
         stance: One of a plan.
         sides: Of the elbows, +1 or -1, shape (limbs,); those of other limbs don't count.
@@ -28,7 +28,7 @@ def load_capacity(robot: LimbedRobot, places: Floats, stance: Records, sides: In
     if len(carriers) != 2:
         return 0.0
     pose = np.array((stance["x"], stance["y"], stance["angle"]))
-    legs, q, arms = legs_of(robot), np.zeros((len(robot.limbs), 2)), np.zeros((len(robot.limbs), 2))
+    q, arms = np.zeros((len(robot.limbs), 2)), np.zeros((len(robot.limbs), 2))
     for i in carriers:
         place = places[stance["hold"][i]]
         found = [one for one in postures(robot.limbs[i], pose, place) if one.inside and one.angles[1] * sides[i] > 0.0]

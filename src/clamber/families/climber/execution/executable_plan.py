@@ -13,6 +13,7 @@ from ....planning.problem.problems import PlannedAction, plan_family
 from ....shown_units import units_of
 from ....tasks.library import change_task, name_to_type
 from ....types import Floats, Ints, Records
+from ..control.limb_chain import legs_of
 from ..planning.task import LimbedTask
 from ..statics.elbows import open_branches
 from .contact_capacity import load_capacity
@@ -97,18 +98,18 @@ class ExecutablePlan:
 
         By the plan's checks, and by what hooks and motors bear: a hook that is taken from the wrong side may pull up where it is to carry.
         """
-        n, bit = len(self.task.robot.limbs), 1 if elbow > 0 else 2
+        n, bit, legs = len(self.task.robot.limbs), 1 if elbow > 0 else 2, legs_of(self.task.robot)
         return all(
-            open_branches(self.stances[k]["elbows"], n, i) & bit and self._bears(i, k, elbow)
+            open_branches(self.stances[k]["elbows"], n, i) & bit and self._bears(legs, i, k, elbow)
             for k in self.stays(i, step)
         )
 
-    def _bears(self, i: int, step: int, elbow: int) -> bool:
+    def _bears(self, legs: Records, i: int, step: int, elbow: int) -> bool:
         """Whether carriers would hold after a step, hardly worse than as chosen, with one limb's elbow on a side."""
         robot, places, chosen = self.task.robot, self.task.world.positions(), self.elbows[step]
         other = np.where(np.arange(len(chosen)) == i, elbow, chosen)
-        least = min(0.0, load_capacity(robot, places, self.stances[step], chosen)) - WEAKER
-        return load_capacity(robot, places, self.stances[step], other) >= least
+        least = min(0.0, load_capacity(robot, legs, places, self.stances[step], chosen)) - WEAKER
+        return load_capacity(robot, legs, places, self.stances[step], other) >= least
 
     def groups(self) -> list[tuple[int, int]]:
         """First and last step, from 1, of what is carried out in one go: like moves of the body in a row, else one action."""

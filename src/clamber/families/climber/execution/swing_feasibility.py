@@ -93,7 +93,7 @@ def _way(
 
     def bears(pose: Floats) -> float:
         stance["x"], stance["y"], stance["angle"] = pose
-        return load_capacity(task.robot, places, stance, course.elbows[step - 1])
+        return load_capacity(task.robot, ways.legs, places, stance, course.elbows[step - 1])
 
     pose = course.pose(step)
     least = min(0.0, bears(pose)) - WEAKER
