@@ -177,7 +177,8 @@ class ReadingMonitor:
             self._look()
         else:
             self.clear += 1
-            self.silent[:] = False
+            if self._looked:
+                self.silent[:], self._looked = False, 0
         if elapsed > 1:
             self.clear = 0
         if self._overdue > self._most:

@@ -7,7 +7,7 @@ over does. The left-over :math:`\tau - I \ddot q - b \dot q - c\,\mathrm{sgn}\,\
 
 import math
 
-from ....compiled import kernel
+from ....compiled import kernel, opened
 
 SLOW = 0.05
 """Friction acts fully against joints that turn faster than this [rad/s]; of a joint at rest it is not known, and left out."""
@@ -16,24 +16,22 @@ FLAT = 0.15
 
 
 @kernel
-def feel_forces(legs, held, q, qd, before, torques, angle, period, rate, felt, forces):
+def feel_forces(handle, angle, period, rate):
     """Forces of the tips on what they touch.
 
     Args:
-        legs: Records of `PLANAR_LIMB`, shape (n,).
-        held: 1 for limbs that hold, shape (n,).
-        q, qd: Joint angles and speeds now, shape (n, 2).
-        before: Joint speeds at the tick before; set to those of now, shape (n, 2).
-        torques: Of the motors since then, shape (n, 2) [N m].
+        handle: Holds records of `PLANAR_LIMB`, shape (n,); 1 for limbs that hold, shape (n,); and, shape (n, 2) each: joint angles now,
+            speeds now, speeds at the tick before, set to those of now, torques of the motors since then [N m], those at the joints'
+            outputs, smoothed and changed [N m], and the forces, filled, world frame [N]; of a limb that is stretched or folded,
+            infinite: nobody can tell.
         angle: Of the body [rad].
         period: Between both ticks [s].
         rate: Part of the way to the newest value that the smoothed one goes at a tick.
-        felt: Torques at the joints' outputs, smoothed; changed, shape (n, 2) [N m].
-        forces: Filled, world frame, shape (n, 2) [N]; of a limb that is stretched or folded, infinite: nobody can tell.
 
     Returns:
         Sum of the forces' sizes [N]; infinite where a limb that holds cannot tell, others that cannot count as none.
     """
+    legs, held, q, qd, before, torques, felt, forces = opened(handle)
     total = 0.0
     for i in range(legs.size):
         leg = legs[i]

@@ -92,6 +92,9 @@ class Climber:
         self.watched = watched
         self.monitor = ReadingMonitor(channels_of(robot), plant.period)
         self.watch = SelfWatch(self.body, self.monitor)
+        told = self.monitor.values, self.monitor.speeds, self.monitor.commands
+        self._joints = [each[: 2 * self.body.n].reshape(-1, 2) for each in told]
+        self._free = self.monitor.free[: 2 * self.body.n].reshape(-1, 2)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash, terrain=terrain)
         self.peg_radius = max(hold.radius for hold in board.holds)
@@ -165,8 +168,7 @@ class Climber:
         self.gripped[:] = sensed.gripped
         falls, lost = self.fall.see(), self.slip.see(self.fall.forces)
         self.plant.actuate(self.body.command(), self.grips)
-        for i, task in enumerate(self.body.tasks):
-            self.monitor.free[2 * i : 2 * i + 2] = task.free
+        self._free.T[:] = [task.free for task in self.body.tasks]
         self.plant.step()
         self.ticks += 1
         holding = self.holding()
@@ -192,8 +194,8 @@ class Climber:
         self._slipped = self._slipped + 1 if slack else 0
         if self._slipped * self.plant.period > 0.1:
             raise FallenError(f"the gripper of '{self.robot.limbs[slack[0]].name}' has slipped off its hold")
-        off = math.dist(self.body.aim[:2], self.body.pose[:2])
-        turned = abs(float(self.body.pose[2] - self.body.aim[2]))
+        (*place, angle), (*aim, aimed) = self.body.pose.tolist(), self.body.aim.tolist()
+        off, turned = math.dist(aim, place), abs(angle - aimed)
         self._pinned = self._pinned + 1 if off > PINNED[0] else 0
         if self._pinned * self.plant.period > PINNED[1]:
             raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
@@ -216,15 +218,11 @@ class Climber:
         if not self.watched:
             self.body.see(sensed.q, sensed.qd, sensed.angle - self.map.offset, sensed.angle_speed)
             return
-        monitor = self.monitor
-        n = 2 * self.body.n
-        values, speeds = monitor.values, monitor.speeds
-        values[:n], values[n] = sensed.q.ravel(), sensed.angle
-        speeds[:n], speeds[n] = sensed.qd.ravel(), sensed.angle_speed
-        monitor.commands[:n] = self.body.torques.ravel()
-        monitor.see(sensed.number)
-        q, qd = values[:n].reshape(-1, 2), speeds[:n].reshape(-1, 2)
-        self.body.see(q, qd, values.item(n) - self.map.offset, speeds.item(n))
+        values, speeds, (q, qd, commands) = self.monitor.values, self.monitor.speeds, self._joints
+        q[:], qd[:], commands[:] = sensed.q, sensed.qd, self.body.torques
+        values[-1], speeds[-1] = sensed.angle, sensed.angle_speed
+        self.monitor.see(sensed.number)
+        self.body.see(q, qd, values.item(-1) - self.map.offset, speeds.item(-1))
 
     def brace(self, seconds: float) -> None:
         """After a fault: hold every joint where it is, those that have failed by the torque that they had; grippers stay as they are."""
@@ -237,7 +235,7 @@ class Climber:
             try:
                 self._believe(self.plant.sense())
             except FaultError:  # told already, and bridged
-                body.q[:], body.qd[:] = monitor.values[:n].reshape(-1, 2), monitor.speeds[:n].reshape(-1, 2)
+                body.q[:], body.qd[:] = self._joints[:2]
             torques = law.torques(posture, fed, body.q.ravel(), body.qd.ravel())
             torques[failed] = fed[failed]
             body.torques[:] = torques.reshape(-1, 2)

@@ -5,6 +5,7 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle
 from ..control.felt_force import SLOW, feel_forces
 from .whole_body import WholeBody
 
@@ -41,6 +42,8 @@ class FallWatch:
         self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
         self.forces = np.zeros((body.n, 2))
         """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
+        seen = body.legs, body.held, body.q, body.qd, self._before, body.torques
+        self._handle = Handle(*seen, self._felt, self.forces)
         self.carried = 0.0
         """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
         self.loose = 0.0
@@ -57,14 +60,12 @@ class FallWatch:
     def see(self) -> bool:
         """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
         body = self._body
-        self.carried = feel_forces(
-            body.legs, body.held, body.q, body.qd, self._before, body.torques,
-            body.pose.item(2), body.period, self._rate, self._felt, self.forces,
-        )  # fmt: skip
+        self.carried = feel_forces(self._handle, body.pose.item(2), body.period, self._rate)
         little = self.carried < self._least
         # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
         self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
-        rate = float(np.abs(body.qd[body.held > 0]).max(initial=0.0))
+        on = zip(body.qd.tolist(), body.held.tolist(), strict=True)
+        rate = max((abs(speed) for speeds, held in on if held for speed in speeds), default=0.0)
         self._fastest = max(self._fastest, rate) if self.loose > 0.0 else 0.0
         if self.loose <= LOOSE:
             return False

@@ -1,5 +1,6 @@
 """A hook that has come off, told before the body is far: two tips that are on their holds do not move against each other."""
 
+import cmath
 import math
 from itertools import combinations
 from typing import Final
@@ -41,7 +42,7 @@ class SlipWatch:
         hooked = [i for i, limb in enumerate(body.robot.limbs) if limb.end.kind != "gripper"]
         self._pairs = list(combinations(hooked, 2))
         self._rate = min(1.0, body.period / FORGOTTEN)
-        self._before: dict[tuple[int, int], tuple[int, int, list[float]]] = {}
+        self._before: dict[tuple[int, int], tuple[int, int, complex, complex]] = {}
         """Pair -> its holds, and the first tip less the second as it lately was, by encoders and with the play counted, world frame [m]."""
         self.moved = 0.0
         """Farthest that two tips have moved against each other of late [m]."""
@@ -58,8 +59,9 @@ class SlipWatch:
             forces: What the tips feel, shape (limbs, 2) [N]; infinite where they cannot tell.
         """
         body, before = self._body, self._before
-        seen = ((body.pose, body.tips), (body.settled, body.settled_tips))
-        turned = [(math.cos(pose.item(2)), math.sin(pose.item(2)), tips.tolist()) for pose, tips in seen]
+        seen = (body.pose, body.tips), (body.settled, body.settled_tips)
+        turned = [(cmath.rect(1.0, at.item(2)), tips.view(np.complex128).ravel().tolist()) for at, tips in seen]
+        (turn, tips), (settled_turn, settled_tips) = turned
         lost, most = None, 0.0
         for pair in self._pairs:
             a, b = pair
@@ -67,30 +69,28 @@ class SlipWatch:
             if one.mode not in ("stance", "unloaded_contact") or other.mode not in ("stance", "unloaded_contact"):
                 before.pop(pair, None)
                 continue
-            now: list[float] = []
-            for c, s, tips in turned:
-                x, y = tips[a][0] - tips[b][0], tips[a][1] - tips[b][1]
-                now += (c * x - s * y, s * x + c * y)
+            felt, settled = turn * (tips[a] - tips[b]), settled_turn * (settled_tips[a] - settled_tips[b])
             known = before.get(pair)
             if known is None or known[:2] != (one.hold, other.hold):
-                before[pair] = one.hold, other.hold, now
+                before[pair] = one.hold, other.hold, felt, settled
                 continue
-            change = [new - old for new, old in zip(now, known[2], strict=True)]
-            size, dx, dy = min((math.hypot(x, y), x, y) for x, y in (change[:2], change[2:]))
-            if size > max(most, MOVED) and self._beyond_play(pair, known[2][2:], now[:2]) > BEYOND:
-                first, second = body.grab_direction(a), body.grab_direction(b)
-                off, other_one = (a, b) if dx * (first[0] + second[0]) + dy * (first[1] + second[1]) > 0.0 else (b, a)
-                felt = math.hypot(*forces[off].tolist()), math.hypot(*forces[other_one].tolist())
-                if size > SURELY or not all(BEARING[0] < force < math.inf for force in felt):
-                    swapped = BEARING[0] < felt[0] < math.inf and felt[1] < BEARING[1]
+            _, _, was_felt, was_settled = known
+            changes = felt - was_felt, settled - was_settled
+            before[pair] = (*known[:2], was_felt + self._rate * changes[0], was_settled + self._rate * changes[1])
+            change = min(changes, key=abs)
+            size = abs(change)
+            if size > max(most, MOVED) and self._beyond_play(pair, felt - was_settled) > BEYOND:
+                along = body.grab_direction(a) + body.grab_direction(b)
+                off, other_one = (a, b) if change.real * along[0] + change.imag * along[1] > 0.0 else (b, a)
+                loads = math.hypot(*forces[off].tolist()), math.hypot(*forces[other_one].tolist())
+                if size > SURELY or not all(BEARING[0] < force < math.inf for force in loads):
+                    swapped = BEARING[0] < loads[0] < math.inf and loads[1] < BEARING[1]
                     lost = other_one if swapped else off
             most = max(most, size)
-            lately = [old + self._rate * step for old, step in zip(known[2], change, strict=True)]
-            before[pair] = one.hold, other.hold, lately
         self.moved = most
         return lost
 
-    def _beyond_play(self, pair: tuple[int, int], lately: list[float], felt: list[float]) -> float:
+    def _beyond_play(self, pair: tuple[int, int], moved: complex) -> float:
         """How far two tips have moved against each other at the least, wherever their joints may be within their play [m].
 
         What the joints of both limbs can make of their play is a polygon with the directions of single joints as edges; this is the
@@ -98,11 +98,10 @@ class SlipWatch:
 
         Args:
             pair: The limbs.
-            lately: First tip less second as it lately was, the play counted, world frame [m].
-            felt: The same now, by the encoders alone.
+            moved: First tip less second by the encoders alone, less the same as it lately was, the play counted, world frame [m].
         """
         body = self._body
         ways = np.concatenate([body.turned_by_joints(i) for i in pair], axis=1) * (0.5 * body.backlash)
         normals = np.stack((-ways[1], ways[0])) / np.maximum(np.hypot(*ways), 1e-12)
-        moved = np.abs(normals.T @ (np.array(felt) - lately))
-        return float((moved - np.abs(normals.T @ ways).sum(axis=1)).max(initial=0.0))
+        across = np.abs(normals.T @ (moved.real, moved.imag))
+        return float((across - np.abs(normals.T @ ways).sum(axis=1)).max(initial=0.0))

@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
+from ....compiled import Handle
 from ....types import Floats
 from ....viewing import style
 from ....viewing.recording import Part, Recording, View
@@ -126,10 +127,8 @@ class ClimbFilm(View[Moment]):
         n = len(self._legs)
         still, forces = np.zeros((n, 2)), np.zeros((n, 2))
         angle = float((trace.believed if trace.true_pose is None else trace.true_pose)[k, 2])
-        feel_forces(
-            self._legs, np.ones(n, np.int64), trace.angles[k], still, still.copy(), torques, angle, 1.0, 1.0,
-            np.zeros((n, 2)), forces,
-        )  # fmt: skip
+        seen = self._legs, np.ones(n, np.int64), trace.angles[k].copy(), still, still.copy(), torques.copy()
+        feel_forces(Handle(*seen, np.zeros((n, 2)), forces), angle, 1.0, 1.0)
         return -forces
 
     def settled(self, step: int) -> Moment:
