@@ -60,7 +60,7 @@ class EstimatedBase:
         self._spreads = np.full(len(world.holds), settings.hold)
         self._on = np.full(limbs, -1, np.int32)
         self._number = -1
-        self._handle: Handle | None = None
+        self._given: tuple[SpatialSensed, Ints, State] | None = None
         motors = Motors.of(robot)
         self._body = Followed.of(tree, FIRM * motors.torque, np.where(motors.sliding, 0.0, play / 2.0))
 
@@ -75,16 +75,23 @@ class EstimatedBase:
     def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """See `Belief`."""
         before, self._number = self._number, sensed.number.item(0)
-        handle = self._handle
-        if handle is None or not (handle.held[0] is sensed and handle.held[5] is holds and handle.held[7] is state):
-            held = self._tree, self._body, self.filter.believed, self.filter.packed, holds, self._on, state
-            self._handle = handle = Handle(sensed, *held)
-            self._believe = ready(believe, handle, self._period, self._late)
+        given = self._given
+        if given is None or not (given[0] is sensed and given[1] is holds and given[2] is state):
+            self._take_hold(sensed, holds, state)
         if self._believe((self._number - before) * self._period, self._late):
             return
         for limb in np.flatnonzero(holds != self._on).tolist():
             self._change(limb, int(holds[limb]))
-        tell(handle, self._late)
+        self._tell(self._late)
+
+    def _take_hold(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
+        """Have kernels work on the arrays that there are."""
+        self._given = sensed, holds, state
+        handle = Handle(
+            sensed, self._tree, self._body, self.filter.believed, self.filter.packed, holds, self._on, state
+        )
+        self._believe = ready(believe, handle, self._period, self._late)
+        self._tell = ready(tell, handle, self._late)
 
     def _change(self, limb: int, hold: int) -> None:
         """A limb takes a hold, or leaves one: what was felt of that stays in the map."""

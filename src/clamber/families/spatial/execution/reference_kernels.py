@@ -171,3 +171,19 @@ def write_sample(handle, row, at):
         row[at] = limbs.holds[limb] + 1.0
         at += 1
     return at
+
+
+@kernel
+def write_truth(position, rotation, joints, wrenches, attached, row):
+    """The truth of a sample in the order of `run_trace.Named.titles`, of parts of a `plant.SpatialTruth`, into a row."""
+    for a in range(3):
+        row[a] = position[a]
+    write_quaternion(rotation, row[3:7])
+    at, n, limbs = 7, joints.shape[1], attached.size
+    for k in range(n):
+        row[at + k] = joints[0, k]
+    at += n
+    for limb in range(limbs):
+        for a in range(6):
+            row[at + 6 * limb + a] = wrenches[limb, a]
+        row[at + 6 * limbs + limb] = attached[limb] + 1.0

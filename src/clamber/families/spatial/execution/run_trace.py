@@ -6,14 +6,14 @@ from typing import Any, Final, Self
 
 import numpy as np
 
+from ....compiled import ready
 from ....execution.log import Log, LogError
 from ....execution.sample_log import fields_of, note_of, report_notes, report_of, sample_log, table_of, width
 from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
 from ..robot.chains import Chains
 from .limbed_body import LimbedBody
-from .reference_kernels import write_sample
-from .references import quaternion_of
+from .reference_kernels import write_sample, write_truth
 
 TOPIC: Final = "limbs"
 """Channel of its log."""
@@ -171,11 +171,14 @@ class TracedBody(LimbedBody):
         n, limbs = len(self.law.torques), len(self.holds)
         row = np.empty(16 + 2 * n + 7 * limbs + (0 if true is None else 7 + n + 7 * limbs))
         row[0], row[1] = self.time, self.action
-        at = write_sample(self.handle, row, 2)
+        at = self._write_sample(row, 2)
         if true is not None:
-            parts = true.pose.position, quaternion_of(true.pose.rotation), true.joints[0], true.wrenches.ravel()
-            np.concatenate((*parts, true.attached + 1.0), out=row[at:])
+            write_truth(true.pose.position, true.pose.rotation, true.joints, true.wrenches, true.attached, row[at:])
         return row
+
+    def _take_hold(self) -> None:
+        super()._take_hold()
+        self._write_sample = ready(write_sample, self.handle, np.zeros(1), 0)
 
     def trace(self, report: Json | None = None) -> RunTrace:
         """All samples so far."""

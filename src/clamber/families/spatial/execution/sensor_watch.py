@@ -155,7 +155,7 @@ class SensorWatch:
         self._weak = self._off = self._wandered = 0
         self._ticks, self._newest, self._debt = 0, -1, 0
         self._clock = -1
-        self._handle: Handle | None = None
+        self._sensed: SpatialSensed | None = None
 
     def see(self, sensed: SpatialSensed, holds: Ints) -> None:
         """Take in a tick's readings; those that are not to be believed are bridged, in place.
@@ -167,18 +167,22 @@ class SensorWatch:
         Raises:
             FaultError: If a sensor, a motor or the link has failed for good, unless the robot has stopped for that already.
         """
-        monitor, law, number = self.monitor, self._law, int(sensed.number[0])
+        monitor, law, number = self.monitor, self._law, sensed.number.item(0)
         fresh = number < 0 or number > self._newest
-        if self._handle is None or self._handle.held[0] is not sensed:
+        if self._sensed is not sensed:
+            self._sensed = sensed
             rest = law.tree, law.state, law.dynamics, self._limits, self._rests
-            self._handle = Handle(sensed, law.torques, law.aims.does, self._owner, self._room, rest)
-            self._gather = ready(gather, self._handle, self._pace.touch, True)
+            handle = Handle(sensed, law.torques, law.aims.does, self._owner, self._room, rest)
+            self._gather = ready(gather, handle, self._pace.touch, True)
+            self._count_repeats = ready(count_repeats, handle, self._units)
+            self._unexplained = ready(unexplained, handle, self._mass, self._share)
+            self._count_wandered = ready(count_wandered, handle, holds, 0.0)
         self._gather(self._pace.touch, fresh)
         try:
             monitor.see(number)
             self._ticks += 1
             if self._ticks % self._every == 0 and fresh and not monitor.closed:
-                self._look(self._handle, holds)
+                self._look(holds)
         except FaultError:
             if not monitor.closed:
                 raise
@@ -200,20 +204,20 @@ class SensorWatch:
             self._clock += 1
             self._debt += 1
 
-    def _look(self, handle: Handle, holds: Ints) -> None:
+    def _look(self, holds: Ints) -> None:
         """See what sensors and motors say together.
 
         Raises:
             FaultError: If one of them is off.
         """
-        c = count_repeats(handle, self._units)
+        c = self._count_repeats(self._units)
         if self._room.repeats[c] >= self._repeats:
             self._fail("no answer", c, "sensor stuck: it says the same while the others of its unit change")
-        off, worst = unexplained(handle, self._mass, self._share)
+        off, worst = self._unexplained(self._mass, self._share)
         if self.monitor.clear > self._patience * self._every:
             self._look_at_torques(off / self._pace.weight, worst)
         if self._ticks % (TIPS_EVERY * self._every) == 0:
-            self._look_at_tips(handle, holds)
+            self._look_at_tips(holds)
 
     def _look_at_torques(self, off: float, c: int) -> None:
         """Whether motors, force sensors and accelerometer agree, by how many weights forces are off, and a joint's torque."""
@@ -239,10 +243,10 @@ class SensorWatch:
         limb = int(rests.argmax())
         return 2 * self._n + 6 + 6 * limb + int(np.abs(off @ dynamics.tip_turn[limb]).argmax())
 
-    def _look_at_tips(self, handle: Handle, holds: Ints) -> None:
+    def _look_at_tips(self, holds: Ints) -> None:
         """Whether tips have moved against each other that are on their holds."""
         far = WANDERED * self._pace.size
-        self._wandered = self._wandered + 1 if count_wandered(handle, holds, far) else 0
+        self._wandered = self._wandered + 1 if self._count_wandered(holds, far) else 0
         if self._wandered <= self._wandering:
             return
         tips, room = self._law.dynamics.tip, self._room

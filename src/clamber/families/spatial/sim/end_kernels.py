@@ -287,13 +287,12 @@ def mean_motion(read, seconds):
 
 
 @kernel
-def read_sensors(handle, noise, force_noise, tick, passed, period):
+def read_sensors(handle, row, tick, passed, period):
     """What all sensors say at a tick, after their delay.
 
     Args:
         handle: Holds what is read, and what is kept of readings (`sensing.Read`), and what is said, filled.
-        noise: Of the inertial unit, with its biases, shape (6,).
-        force_noise: Of the wrenches, shape (limbs, 6).
+        row: Of the noise, that this reading has.
         tick: Number of this reading, from 0.
         passed: Time since the reading before [s]; 0: this is that one again.
         period: Of the control [s].
@@ -311,10 +310,10 @@ def read_sensors(handle, noise, force_noise, tick, passed, period):
     if passed > 0.0:
         mean_motion(read, passed)
     for a in range(6):
-        read.motions[now, a] = read.mean[a] + noise[a]
+        read.motions[now, a] = read.mean[a] + read.noise[row, a]
     for limb in range(read.closed.size):
         for a in range(6):
-            read.wrenches[now, limb, a] = read.felt[limb, a] + force_noise[limb, a]
+            read.wrenches[now, limb, a] = read.felt[limb, a] + read.force_noise[row, limb, a]
     for k in range(read.at.size):
         sensed.joints[0, k], sensed.joints[1, k] = read.joints[late, 0, k], read.joints[late, 1, k]
         sensed.torques[k] = read.given[k]

@@ -162,12 +162,13 @@ class Ends:
         )
         self._given, self._handle = seen.given, Handle(seen)
         self._nearest_holds, self._feel_ends = ready(nearest_holds, self._handle), ready(feel_ends, self._handle)
+        self._held_by = ready(held_by, self._handle, np.empty(n, np.int32))
 
     @property
     def attached(self) -> Ints:
         """Index of the hold that each is attached to; of what only pushes the one that it pushes on; -1: none. Shape (limbs,)."""
         found = np.empty(len(self._ends), np.int32)
-        held_by(self._handle, found)
+        self._held_by(found)
         return found
 
     def reset(self, held: Sequence[int] | Ints) -> None:

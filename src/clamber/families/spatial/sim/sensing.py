@@ -30,31 +30,6 @@ def chance_of(flaws: SpatialFlaws) -> np.random.Generator:
     return np.random.default_rng([flaws.seed or 0, 2])
 
 
-class NoiseRows:
-    """Noise of a sensor, a row a reading.
-
-    Args:
-        chance: Its stream.
-        spread: Standard deviations, of any shape; where all are 0 nothing is drawn.
-        bias: What every reading tells too much.
-    """
-
-    def __init__(self, chance: np.random.Generator, spread: Floats, bias: Floats | float = 0.0) -> None:
-        self._chance, self._spread, self._bias = chance, spread, bias
-        self._rows, self._at = np.zeros((1, *spread.shape)), 0
-        if spread.any() or np.any(bias):
-            self._at = 1
-
-    def next(self) -> Floats:
-        """Of the next reading."""
-        if self._at == len(self._rows):
-            self._rows = self._bias + self._spread * self._chance.standard_normal((DRAWN, *self._spread.shape))
-            self._at = 0
-        row: Floats = self._rows[self._at]
-        self._at += len(self._rows) > 1
-        return row
-
-
 class Read(NamedTuple):
     """What is read, and what is kept of readings; a NamedTuple, as kernels take it."""
 
@@ -94,6 +69,10 @@ class Read(NamedTuple):
     """Likewise, shape (delay + 1, 6)."""
     wrenches: Floats
     """Likewise, shape (delay + 1, limbs, 6)."""
+    noise: Floats
+    """Of the inertial unit, with its biases, a row a reading, shape (DRAWN, 6)."""
+    force_noise: Floats
+    """Of the tips' wrenches, likewise, shape (DRAWN, limbs, 6)."""
 
 
 class Sensing:
@@ -130,13 +109,12 @@ class Sensing:
         depth, n, limbs = flaws.late + 1, len(given), len(tips[1])
         self._read = Read(
             data.qpos, data.qvel, *places, np.zeros(n), gravity, np.eye(3), np.eye(3), np.zeros(3), np.zeros(6), tips[0], given, *tips[1:],
-            np.zeros((depth, 2, n)), np.zeros((depth, 6)), np.zeros((depth, limbs, 6)),
+            np.zeros((depth, 2, n)), np.zeros((depth, 6)), np.zeros((depth, limbs, 6)), np.zeros((DRAWN, 6)), np.zeros((DRAWN, limbs, 6)),
         )  # fmt: skip
         spread = flaws.force_noise * chains.total_mass * GRAVITY
         self._spread = np.repeat((flaws.gyro_noise, flaws.accelerometer_noise), 3)
         self._force_spread = np.tile(np.repeat((spread, 0.1 * reach * spread), 3), (limbs, 1))
-        like = np.zeros(6), np.zeros((limbs, 6)), 0, 0.0, self._period
-        self._read_sensors = ready(read_sensors, Handle(self._read, self.sensed), *like)
+        self._read_sensors = ready(read_sensors, Handle(self._read, self.sensed), 0, 0, 0.0, self._period)
         self.reset()
 
     def reset(self) -> None:
@@ -146,15 +124,23 @@ class Sensing:
             ring[:] = 0.0
         read.turn[:], read.velocity[:] = rotation(read.qpos[3:7]), read.qvel[:3]
         read.mean[:3], read.mean[3:] = 0.0, -read.gravity @ read.turn
-        chance = chance_of(flaws)
-        bias = drawn_biases(flaws, chance)
-        known = flaws.seed is not None
-        self._noise = NoiseRows(chance, self._spread * known, bias * known)
-        self._force_noise = NoiseRows(np.random.default_rng(flaws.seed or 0), self._force_spread)
-        self._tick = 0
+        self._chance, self._force_chance = chance_of(flaws), np.random.default_rng(flaws.seed or 0)
+        self._bias = drawn_biases(flaws, self._chance)
+        self._tick = self._readings = 0
 
     def read(self, tick: int) -> SpatialSensed:
         """What a controller gets at a tick."""
         passed, self._tick = (tick - self._tick) * self._period, tick
-        self._read_sensors(self._noise.next(), self._force_noise.next(), tick, passed, self._period)
+        row, self._readings = self._readings % DRAWN, self._readings + 1
+        if row == 0:
+            self._draw()
+        self._read_sensors(row, tick, passed, self._period)
         return self.sensed
+
+    def _draw(self) -> None:
+        """Draw the noise of the next readings."""
+        noise, force_noise = self._read.noise, self._read.force_noise
+        if self._flaws.seed is not None:
+            noise[:] = self._bias + self._spread * self._chance.standard_normal(noise.shape)
+        if self._force_spread.any():
+            force_noise[:] = self._force_spread * self._force_chance.standard_normal(force_noise.shape)

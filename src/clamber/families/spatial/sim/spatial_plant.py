@@ -79,7 +79,8 @@ class SpatialSim:
         self._play_at = np.array([play.qposadr[0] for play in plays], np.intp)
         play_at, play_speed_at = np.full(n, -1), np.full(n, -1)
         play_at[played], play_speed_at[played] = self._play_at, [play.dofadr[0] for play in plays]
-        self._motion = Handle(data.qpos, data.qvel, self._at, self._speed_at, play_at, play_speed_at)
+        motion = Handle(data.qpos, data.qvel, self._at, self._speed_at, play_at, play_speed_at)
+        self._true_motion = ready(true_motion, motion, np.empty((3, 3)), np.empty(6), np.empty((2, n)))
         with np.errstate(divide="ignore"):
             agility = (
                 2.0 * motors.torque / motors.rotor
@@ -223,7 +224,7 @@ class SpatialSim:
     def truth(self) -> SpatialTruth:
         """How things really are; a look leaves the simulation as it is."""
         turn, velocity, joints = np.empty((3, 3)), np.empty(6), np.empty((2, len(self._at)))
-        true_motion(self._motion, turn, velocity, joints)
+        self._true_motion(turn, velocity, joints)
         return SpatialTruth(
             pose=Pose(turn, self._qpos[:3].copy()),
             velocity=velocity,
