@@ -10,10 +10,10 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_410,
+    "lines": 100_392,
     "files": 665,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 54,
+    f"functions with more than {MANY} parameters": 53,
     "median length of a line": 40,
     "90th percentile of the length of a line": 97,
 }
