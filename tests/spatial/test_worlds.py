@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.errors import FileError, SpecError
-from clamber.families.spatial.planning.surface import fit_surface, on_guide, span_along
+from clamber.families.spatial.planning.surface import LEAST, SMOOTH, fit_surface, on_guide, span_along
 from clamber.families.spatial.world.guide import GRAIN
 from clamber.families.spatial.world.library import read_world
 from clamber.families.spatial.world.patterns import frame_at
@@ -196,6 +196,20 @@ def test_a_fitted_surface_is_the_plane_of_holds_that_lie_in_one() -> None:
     at = along + 0.1 * round((1.0 - along) / 0.1)
     assert middle[0] == pytest.approx(0.1 + 0.02 * at, abs=2e-3)
     assert middle[1] == pytest.approx(0.02, abs=5e-3) and middle[2] == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_fitted_surface_is_of_least_squares_about_each_node() -> None:
+    """Weighted by a Gaussian of the radius, slopes held towards 0: of NumPy's least squares, node by node."""
+    rng = np.random.default_rng(3)
+    places, grain, radius = rng.normal(size=(60, 3)) * (0.5, 0.3, 0.05), 0.15, 0.25
+    grid, corner = fit_surface(places, grain, radius)
+    for i, j in np.ndindex(*grid.shape[:2]):
+        away = places[:, :2] - (np.array(corner) + grain * np.array((i, j)))
+        weight = np.exp(-(away**2).sum(axis=1) / (2.0 * radius**2)) + LEAST
+        root, flat = np.sqrt(weight), radius * math.sqrt(SMOOTH * weight.sum())
+        rows = np.vstack((np.column_stack((np.ones(60), away)) * root[:, None], ((0, flat, 0), (0, 0, flat))))
+        fitted = np.linalg.lstsq(rows, np.concatenate((places[:, 2] * root, (0, 0))))[0]
+        assert grid[i, j] == pytest.approx(fitted, abs=1e-9)
 
 
 def test_no_hold_within_reach_is_farther_along_a_guide_than_its_span() -> None:

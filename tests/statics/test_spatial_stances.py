@@ -13,10 +13,12 @@ from clamber.families.spatial.robot.contact_files import read_contact
 from clamber.families.spatial.robot.contact_kinds import build_contact
 from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
 from clamber.families.spatial.statics.checks import STANCE_CHECK, STANCE_CHECKS
-from clamber.families.spatial.statics.collision_kernels import box_gap, segment_gap
+from clamber.families.spatial.statics.collision_kernels import box_gap, limbs_gap, pair_gap, segment_gap
 from clamber.families.spatial.statics.judging import Statics, rules_record
-from clamber.families.spatial.statics.records import WORK
+from clamber.families.spatial.statics.kinematics_kernels import limb_frames
+from clamber.families.spatial.statics.records import WORK, robot_record
 from clamber.families.spatial.statics.stance_kernels import swing_reach
+from clamber.planning.problem.check import UNLIMITED
 from clamber.types import Floats, Records
 from plain_spatial import frames
 from spatial_machines import arms, random_stances, random_turn, spider
@@ -238,6 +240,28 @@ def test_gaps_of_a_box_are_those_of_dense_points(seed: int) -> None:
     over = abs(points) - half
     outside = np.linalg.norm(np.maximum(over, 0.0), axis=1)
     assert box_gap(a, b, half) == pytest.approx(float((outside + np.minimum(over.max(axis=1), 0.0)).min()), abs=1e-4)
+
+
+@given(machine=MACHINE, seed=SEED)
+@settings(max_examples=40)
+def test_the_gap_of_limbs_is_the_least_of_all_pairs_or_what_was_asked(machine: str, seed: int) -> None:
+    chains, kind = MACHINES[machine]
+    robot, work, rng = (
+        robot_record(chains, [kind] * len(chains.limb_names))[0],
+        np.zeros(1, WORK),
+        np.random.default_rng(seed),
+    )
+    limbs = range(len(chains.limb_names))
+    for limb in limbs:
+        n = chains.n_joints[limb]
+        work["posture"][0, limb, :n] = rng.uniform(chains.lower[limb, :n], chains.upper[limb, :n])
+        limb_frames(robot, limb, work[0])
+    origin = work["origin"][0]
+    pairs = {(i, j): float(pair_gap(robot, i, j, origin[i], origin[j])) for i in limbs for j in range(i)}
+    for only in (-1, *limbs):
+        least = min(gap for pair, gap in pairs.items() if only < 0 or only in pair)
+        for asked in (UNLIMITED, least + 0.01, least - 0.01):
+            assert limbs_gap(robot, origin, only, asked) == min(least, asked)
 
 
 def path_rooms(machine: str, seed: int, shift: Floats, lift: float) -> tuple[float, Records, Statics]:

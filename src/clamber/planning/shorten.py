@@ -12,7 +12,7 @@ from ..tasks import Task
 from ..types import Ints
 from .beam_layers import Corridor, search_layers
 from .problem.plan import Plan
-from .problem.problem import CompiledProblem
+from .problem.problem import CompiledProblem, Records
 from .problem.problems import goal_step, plan_family, pose_problem
 from .progress import Clock, Listener, Shortening
 from .result import PlanResult
@@ -64,18 +64,20 @@ class WindowSearch:
         self.checks = 0
         self.complete = True
 
-    def shorten(self, problem: CompiledProblem, codes: Ints, first: int, last: int) -> Ints:
-        """The plan with a shorter way from its stance `first` on, or as it is.
+    def shorten(
+        self, problem: CompiledProblem, codes: Ints, plan: Records, window: tuple[int, int]
+    ) -> tuple[Ints, Records]:
+        """The plan with a shorter way from its stance `first` on, or as it is, and its stances.
 
         A window that ends where the plan does may end in any goal stance.
 
         Args:
             problem: The task.
             codes: A plan that holds; every hold named.
-            first, last: The window.
+            plan: Its stances, start included.
+            window: Its first and last stance.
         """
-        replayed = problem.replay(codes)
-        plan = replayed.stances
+        first, last = window
         to_goal = last == len(codes)
         near = problem if to_goal else problem.without_more_hangs(plan[first : first + 1])
         if not to_goal and near is not problem and plan["hangs"][last] != plan["hangs"][first]:
@@ -83,8 +85,7 @@ class WindowSearch:
         params = near.params.record
         keys = np.zeros((len(plan), problem.key_words), np.int64)
         stance_keys(params, plan, keys)
-        table = np.zeros(table_size(len(plan)), np.int32)
-        table[:] = -1
+        table = np.full(table_size(len(plan)), -1, np.int32)
         rehash(keys, len(plan), table)
         tree = self.tree._replace(heads=np.zeros(len(plan) + 1, np.int64))
         search_window(params, Line(plan, keys, table), (first, last), to_goal, tree, self.room, self.state)
@@ -93,10 +94,11 @@ class WindowSearch:
         self.checks += judged
         self.complete &= nodes + problem.branching <= len(tree.keys)
         if not saved:
-            return codes
+            return codes, plan
         way = path_to(tree.parent, tree.code, node)
         shorter = np.concatenate([codes[:first], way, codes[rejoined:]]).astype(np.int32)
-        return shorter if is_plan(problem, shorter) else codes
+        stances = stances_to_goal(problem, shorter)
+        return (codes, plan) if stances is None else (shorter, stances)
 
 
 def shorten_by_windows(
@@ -124,6 +126,7 @@ def shorten_by_windows(
     clock = Clock(seconds)
     search = WindowSearch(problem, most)
     length, first = SHORTEST_WINDOW, 0
+    plan = problem.replay(codes).stances
     with Interruptible() as block:
         while len(codes) > 1:
             if search.seen >= effort or clock.is_over:
@@ -131,7 +134,7 @@ def shorten_by_windows(
                 break
             length = min(length, len(codes))
             before = len(codes)
-            codes = search.shorten(problem, codes, first, min(before, first + length))
+            codes, plan = search.shorten(problem, codes, plan, (first, min(before, first + length)))
             if tell is not None:
                 tell(len(codes))
             if len(codes) < before:
@@ -142,14 +145,13 @@ def shorten_by_windows(
                 length, first = int(WINDOW_GROWTH * length), 0
             else:
                 break
-    complete = search.complete and not block.interrupted
-    return Shortened(codes, search.seen, search.checks, complete, block.interrupted)
+    return Shortened(codes, search.seen, search.checks, search.complete and not block.interrupted, block.interrupted)
 
 
-def is_plan(problem: CompiledProblem, codes: Ints) -> bool:
-    """Whether codes hold all the way and end in a goal stance."""
+def stances_to_goal(problem: CompiledProblem, codes: Ints) -> Records | None:
+    """Stances of codes that hold all the way and end in a goal stance, start included; None of others."""
     replayed = problem.replay(codes)
-    return replayed.ok and problem.is_done(replayed.stances[-1:])
+    return replayed.stances if replayed.ok and problem.is_done(replayed.stances[-1:]) else None
 
 
 FIRST_CORRIDOR: Final = 10_000
@@ -218,14 +220,13 @@ def _through(problem: CompiledProblem, codes: Ints, size: int) -> tuple[Ints, in
     state = np.zeros(3, np.int64)
     collect(problem.params.record, plan, graph, scratch_for(problem), state)
     nodes, expanded, judged = (int(value) for value in state)
-    parent = np.zeros(nodes, np.int32)
-    code = np.zeros(nodes, np.int32)
+    parent, code = np.zeros((2, nodes), np.int32)
     goal = shortest(expanded, graph, parent, code, np.zeros(nodes, np.int32))
     complete = expanded == nodes
     if goal < 0:
         return codes, nodes, judged, complete
     way = path_to(parent, code, goal)
-    better = len(way) < len(codes) and is_plan(problem, way)
+    better = len(way) < len(codes) and stances_to_goal(problem, way) is not None
     return way if better else codes, nodes, judged, complete
 
 
@@ -260,7 +261,7 @@ def shorten_by_beam(
         corridor=Corridor(places, radius),
         seconds=seconds,
     )
-    better = reached.found and len(reached.codes) < len(codes) and is_plan(problem, reached.codes)
+    better = reached.found and len(reached.codes) < len(codes) and stances_to_goal(problem, reached.codes) is not None
     return Shortened(reached.codes if better else codes, reached.stances, reached.checks, False, reached.interrupted)
 
 
@@ -300,7 +301,6 @@ def shorten(
     if problem.incomplete is not None or not len(codes):
         return done
     clock = Clock(seconds)
-
     if width:
         done = shorten_by_beam(problem, codes, width=width, seconds=clock.left)
         if tell is not None:
@@ -349,7 +349,7 @@ def polish_plan(
     codes = plan.codes(task, label)
     stances = problem.replay(codes).stances
     end = goal_step(problem, codes, stances)
-    if not is_plan(problem, codes[:end]):
+    if stances_to_goal(problem, codes[:end]) is None:
         allowed = "must hold up to the goal and reach it; `clamber check` says where it does not"
         raise SpecError(label, "actions", f"{len(codes)} actions", allowed)
 

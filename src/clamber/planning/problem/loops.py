@@ -166,7 +166,7 @@ def expand_scored(
             elif step(p, parents[i], codes[c], child[0], margins) >= 0:
                 continue
             measure(p, child[0], row)
-            value = -toll * bound(p, child[0])
+            value = -toll * bound(p, child[0]) if toll != 0.0 else 0.0
             for f in range(weights.shape[0]):
                 value += weights[f] * row[f]
             code[i, n] = codes[c]

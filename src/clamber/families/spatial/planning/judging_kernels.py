@@ -1,13 +1,12 @@
-"""Judging a stance of a task in space, and a limb's way to another: where its limbs are, and what statics says of it."""
+"""Judging a stance of a task in space: where its limbs are, and what statics says of it."""
 
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 from ....planning.problem.randoms import scramble
-from ..statics.checks import LIMB_BODY, LIMB_LIMB
-from ..statics.kinematics_kernels import limb_frames
-from ..statics.records import CONTACT, JOINTS, LIMBS
+from ..statics.checks import JOINT, JUMP, REACH
+from ..statics.records import JOINTS, LIMBS
 from ..statics.stance_kernels import (
     aim_limb,
     judge,
@@ -16,24 +15,13 @@ from ..statics.stance_kernels import (
     judge_shape,
     place_in_world,
     solve_limb,
-    swing_reach,
     weigh,
 )
-from .checks import CLEARANCE, SWING
-from .passing_kernels import (
-    ARRIVING,
-    LEAVING,
-    OF_BASE,
-    OF_LIMBS,
-    OF_SOLIDS,
-    begin_way,
-    follow,
-    put_places,
-    put_stance,
-)
+from .checks import CLEARANCE
+from .passing_kernels import ARRIVING, judge_swing, lessen
 from .poses_kernels import body_of, contacts_of, holds_of, judged_of, robot_of, rules_of, seeds_of, work_of
 from .records import AXES, KNOWN, LIFTED
-from .solids_kernels import base_corners, solids_gap, tip_room
+from .solids_kernels import base_corners, solids_gap
 
 SCRATCH = 256
 """Floats of a thread's scratch."""
@@ -92,6 +80,14 @@ def set_contacts(p, s, swinging, moved):
         contact.known = 0
 
 
+@inlined
+def row_at(s, value, n):
+    """Row of a table of n, a power of two, for what is known of something in the pose of a stance."""
+    for k in range(AXES):
+        value = scramble(value ^ np.uint64(s.pose[k]))
+    return np.int64(value & np.uint64(n - 1))
+
+
 @kernel
 def know_posture(p, s, limb):
     """Posture of a limb of a placed stance, and the error that it leaves: solved, or as it was kept; after `set_contacts`.
@@ -100,10 +96,8 @@ def know_posture(p, s, limb):
         The record of `KNOWN`, good until the next one is asked for.
     """
     named = limb + 1 | np.int64(s.hold[limb]) << 16
-    value = scramble(np.uint64(named))
-    for k in range(AXES):
-        value = scramble(value ^ np.uint64(s.pose[k]))
-    known = carray(pointer(p.work_known_at), p.n_work_known, KNOWN)[np.int64(value & np.uint64(p.n_work_known - 1))]
+    kept = carray(pointer(p.work_known_at), p.n_work_known, KNOWN)
+    known = kept[row_at(s, scramble(np.uint64(named)), p.n_work_known)]
     same = known.limb == named
     for k in range(AXES):
         same = same and known.pose[k] == s.pose[k]
@@ -220,33 +214,56 @@ def keep_judged(p, s, out, bears):
 
 
 @kernel
-def judge_lifted(p, before, limb):
-    """The first force check that a valid stance violates while a limb bears nothing, -1 if none; kept for the limb's other ways on."""
-    lifted = carray(pointer(p.work_lifted_at), 1, LIFTED)[0]
-    same = lifted.hold[0] == before.hold[0]
-    for k in range(AXES):
-        same = same and lifted.pose[k] == before.pose[k]
+def judge_lifted(p, s, limb):
+    """The first force check that a valid stance violates while a limb bears nothing, -1 if none: judged, or as it was kept."""
+    value = np.uint64(0)
     for i in range(p.n_limbs):
-        same = same and lifted.hold[i] == before.hold[i]
+        value = scramble(value ^ np.uint64(s.hold[i]))
+    kept = carray(pointer(p.work_lifted_at), p.n_work_lifted, LIFTED)
+    lifted = kept[row_at(s, value, p.n_work_lifted)]
+    same = lifted.known != 0
+    for k in range(AXES):
+        same = same and lifted.pose[k] == s.pose[k]
+    for i in range(p.n_limbs):
+        same = same and lifted.hold[i] == s.hold[i]
     if not same:
+        lifted.known = 0
         for k in range(AXES):
-            lifted.pose[k] = before.pose[k]
+            lifted.pose[k] = s.pose[k]
         for i in range(p.n_limbs):
-            lifted.hold[i] = before.hold[i]
-            lifted.verdict[i] = -2
-    if lifted.verdict[limb] == -2:
+            lifted.hold[i] = s.hold[i]
+    if not lifted.known >> limb & 1:
         contacts = contacts_of(p)
         out = judged_of(p)[1]
-        set_contacts(p, before, limb, -1)
+        set_contacts(p, s, limb, -1)
         for i in range(p.n_limbs):
             contacts[i].known = 1
             contacts[i].error = 0.0
             for k in range(JOINTS):
-                out.posture[i, k] = before.q[i, k]
-        remember(p, before)
+                out.posture[i, k] = s.q[i, k]
+        remember(p, s)
         weigh_known(p)
         lifted.verdict[limb] = judge_forces(robot_of(p), rules_of(p), out, work_of(p))
+        lifted.known |= 1 << limb
     return lifted.verdict[limb]
+
+
+@kernel
+def judge_posture(p, before, s, limb):
+    """The first check that a limb's own posture on its other hold violates, -1 if none; after `set_contacts`."""
+    known = know_posture(p, s, limb)
+    robot = robot_of(p)
+    rules = rules_of(p)
+    if rules.reach * robot.size - known.error < -TOLERANCE:
+        return REACH
+    joint, jump = UNLIMITED, UNLIMITED
+    for k in range(robot.n_joints[limb]):
+        q = known.posture[k]
+        joint = min(joint, q - robot.lower[limb, k], robot.upper[limb, k] - q)
+        jump = min(jump, rules.jump_moved - abs(q - before.q[limb, k]))
+    if p.hard >> JOINT & 1 and joint - rules.joint_room < -TOLERANCE:
+        return JOINT
+    return JUMP if p.hard >> JUMP & 1 and before.postured and jump < -TOLERANCE else -1
 
 
 @kernel
@@ -254,8 +271,14 @@ def judge_taken(p, before, s, limb, margins):
     """Judge a placed stance in which a limb has come to another hold, without it and with it, and write its posture and wrenches.
 
     Returns:
-        The first violated hard check, or -1; `margins` up to it are written as far as the verdict needs them.
+        A violated hard check, or -1; `margins` are written as far as the verdict needs them.
     """
+    set_contacts(p, s, -1, limb)
+    broken = judge_posture(p, before, s, limb)
+    if broken < 0:  # early, as it is known for all the limb's ways on at once, and most often what fails
+        broken = judge_lifted(p, before, limb)
+    if broken >= 0:
+        return broken
     set_contacts(p, s, -1, limb)
     remember(p, before)
     robot = robot_of(p)
@@ -276,11 +299,6 @@ def judge_taken(p, before, s, limb, margins):
     broken = judge_swing(p, before, limb, s.hold[limb], margins)
     if broken >= 0:
         return broken
-    broken = judge_lifted(p, before, limb)
-    if broken >= 0:
-        return broken
-    set_contacts(p, s, -1, limb)
-    know_postures(p, s, out)
     weigh_known(p)
     work.bears[limb] = 0
     broken = judge_forces(robot, rules, out, work)
@@ -293,91 +311,3 @@ def judge_taken(p, before, s, limb, margins):
         for k in range(CLEARANCE):
             lessen(margins, k, out.margins[k])
     return broken
-
-
-@inlined
-def lessen(margins, check, margin):
-    """Take a margin where it is less than that of its check, or where there is none yet."""
-    if not margins[check] <= margin:
-        margins[check] = margin
-
-
-@kernel
-def take_gaps(p, least, margins):
-    """Take the least gaps of a way where they are less than the margins of their checks; the first hard one violated, or -1."""
-    lessen(margins, LIMB_LIMB, least[OF_LIMBS] - robot_of(p).limb_room)
-    lessen(margins, LIMB_BODY, least[OF_BASE])
-    lessen(margins, CLEARANCE, least[OF_SOLIDS] - p.clearance)
-    for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
-        if p.hard >> check & 1 and margins[check] < -TOLERANCE:
-            return check
-    return -1
-
-
-@kernel
-def judge_move(p, before, s, margins):
-    """Judge the body's way from one valid stance to another over the same holds, just after `judge_stance` of that.
-
-    Args:
-        p, before, s: Parameters and stances.
-        margins: `limb_limb`, `limb_body` and `clearance` become what they are on the way, if that is less.
-
-    Returns:
-        The first violated hard check, or -1.
-    """
-    work = work_of(p)
-    body = body_of(p)
-    put_stance(p, ARRIVING, work)
-    for a in range(9):
-        body.rotation[a] = before.turn[a]
-    for a in range(3):
-        body.place[a] = before.place[a]
-    for limb in range(p.n_limbs):
-        for k in range(JOINTS):
-            work.posture[limb, k] = before.q[limb, k]
-        limb_frames(robot_of(p), limb, work)
-    put_stance(p, LEAVING, work)
-    begin_way(p, work)
-    follow(p, -1, work)
-    return take_gaps(p, work.least, margins)
-
-
-@kernel
-def judge_swing(p, s, limb, hold, margins):
-    """Judge the lifted path of a limb from its hold to another, while the others stand as `origin` of the scratch has them.
-
-    Args:
-        p: Parameters.
-        s: The stance that the limb leaves.
-        limb: Which swings.
-        hold: Where it goes.
-        margins: `swing` is written: error that is allowed less the largest that postures leave [m]; `limb_limb`, `limb_body` and
-            `clearance` become what they are on the path, if that is less, unless `swing` is violated.
-
-    Returns:
-        The first violated hard check, or -1.
-    """
-    robot, holds = robot_of(p), holds_of(p)
-    swing = carray(pointer(p.work_contacts_at), LIMBS + 2, CONTACT)[LIMBS:]
-    for end in range(2):
-        which = holds[hold if end else s.hold[limb]]
-        for k in range(3):
-            swing[end].place[k] = which.place[k]
-            swing[end].normal[k] = which.normal[k]
-    before = judged_of(p)[0]
-    work = work_of(p)
-    for k in range(JOINTS):
-        before.posture[limb, k] = s.q[limb, k]
-    margins[SWING] = swing_reach(robot, seeds_of(p), body_of(p), limb, swing, before, p.lift, work)
-    if margins[SWING] < -TOLERANCE:
-        return SWING if p.hard >> SWING & 1 else -1
-    begin_way(p, work)
-    for point in range(work.n_way):
-        put_places(p, LEAVING, limb, work.way[point], work)
-        put_places(p, ARRIVING, limb, work.way[min(point + 1, work.n_way - 1)], work)
-        follow(p, limb, work)
-    if p.n_solids > 0:
-        room = tip_room(p, swing, work)
-        if room < 0.0:
-            work.least[OF_SOLIDS] = min(work.least[OF_SOLIDS], p.clearance + room)
-    return take_gaps(p, work.least, margins)

@@ -1,13 +1,17 @@
-"""What limbs come near on their way from one solved posture to the next: each other, the base, solids."""
+"""Judging ways from one solved posture to the next: what limbs come near, each other, the base, solids, and whether tips get along."""
 
 import math
 
-from ....compiled import inlined, kernel
+from ....compiled import carray, inlined, kernel, pointer
 from ....planning.problem.check import TOLERANCE, UNLIMITED
+from ..statics.checks import LIMB_BODY, LIMB_LIMB
 from ..statics.collision_kernels import body_gap, limbs_gap
-from ..statics.stance_kernels import limb_in_world
-from .poses_kernels import body_of, robot_of
-from .solids_kernels import base_corners, solids_gap
+from ..statics.kinematics_kernels import limb_frames
+from ..statics.records import CONTACT, JOINTS, LIMBS
+from ..statics.stance_kernels import limb_in_world, swing_reach
+from .checks import CLEARANCE, SWING
+from .poses_kernels import body_of, holds_of, judged_of, robot_of, seeds_of, work_of
+from .solids_kernels import base_corners, solids_gap, tip_room
 
 LEAVING, ARRIVING, PASSING = range(3)
 """Which of the places of limbs in the scratch."""
@@ -120,7 +124,7 @@ def follow(p, only, work):
     share = 0.0
     while True:
         pass_at(p, only, share, work)
-        gap = limbs_gap(robot, work.places[PASSING], only)
+        gap = limbs_gap(robot, work.places[PASSING], only, max(least[OF_LIMBS], robot.limb_room + apart))
         least[OF_LIMBS] = min(least[OF_LIMBS], gap)
         share_on = max(robot.fine, gap - robot.limb_room) / max(apart, TOLERANCE)
         gap = body_gap(robot, work.places[PASSING], only, max(least[OF_BASE], moved))
@@ -131,3 +135,91 @@ def follow(p, only, work):
         share += min(share_on, max(robot.fine, gap - p.clearance) / max(away, TOLERANCE))
         if share >= 1.0:
             return
+
+
+@inlined
+def lessen(margins, check, margin):
+    """Take a margin where it is less than that of its check, or where there is none yet."""
+    if not margins[check] <= margin:
+        margins[check] = margin
+
+
+@kernel
+def take_gaps(p, least, margins):
+    """Take the least gaps of a way where they are less than the margins of their checks; the first hard one violated, or -1."""
+    lessen(margins, LIMB_LIMB, least[OF_LIMBS] - robot_of(p).limb_room)
+    lessen(margins, LIMB_BODY, least[OF_BASE])
+    lessen(margins, CLEARANCE, least[OF_SOLIDS] - p.clearance)
+    for check in (LIMB_LIMB, LIMB_BODY, CLEARANCE):
+        if p.hard >> check & 1 and margins[check] < -TOLERANCE:
+            return check
+    return -1
+
+
+@kernel
+def judge_move(p, before, s, margins):
+    """Judge the body's way from one valid stance to another over the same holds, just after `judge_stance` of that.
+
+    Args:
+        p, before, s: Parameters and stances.
+        margins: `limb_limb`, `limb_body` and `clearance` become what they are on the way, if that is less.
+
+    Returns:
+        The first violated hard check, or -1.
+    """
+    work = work_of(p)
+    body = body_of(p)
+    put_stance(p, ARRIVING, work)
+    for a in range(9):
+        body.rotation[a] = before.turn[a]
+    for a in range(3):
+        body.place[a] = before.place[a]
+    for limb in range(p.n_limbs):
+        for k in range(JOINTS):
+            work.posture[limb, k] = before.q[limb, k]
+        limb_frames(robot_of(p), limb, work)
+    put_stance(p, LEAVING, work)
+    begin_way(p, work)
+    follow(p, -1, work)
+    return take_gaps(p, work.least, margins)
+
+
+@kernel
+def judge_swing(p, s, limb, hold, margins):
+    """Judge the lifted path of a limb from its hold to another, while the others stand as `origin` of the scratch has them.
+
+    Args:
+        p: Parameters.
+        s: The stance that the limb leaves.
+        limb: Which swings.
+        hold: Where it goes.
+        margins: `swing` is written: error that is allowed less the largest that postures leave [m]; `limb_limb`, `limb_body` and
+            `clearance` become what they are on the path, if that is less, unless `swing` is violated.
+
+    Returns:
+        The first violated hard check, or -1.
+    """
+    robot, holds = robot_of(p), holds_of(p)
+    swing = carray(pointer(p.work_contacts_at), LIMBS + 2, CONTACT)[LIMBS:]
+    for end in range(2):
+        which = holds[hold if end else s.hold[limb]]
+        for k in range(3):
+            swing[end].place[k] = which.place[k]
+            swing[end].normal[k] = which.normal[k]
+    before = judged_of(p)[0]
+    work = work_of(p)
+    for k in range(JOINTS):
+        before.posture[limb, k] = s.q[limb, k]
+    margins[SWING] = swing_reach(robot, seeds_of(p), body_of(p), limb, swing, before, p.lift, work)
+    if margins[SWING] < -TOLERANCE:
+        return SWING if p.hard >> SWING & 1 else -1
+    begin_way(p, work)
+    for point in range(work.n_way):
+        put_places(p, LEAVING, limb, work.way[point], work)
+        put_places(p, ARRIVING, limb, work.way[min(point + 1, work.n_way - 1)], work)
+        follow(p, limb, work)
+    if p.n_solids > 0:
+        room = tip_room(p, swing, work)
+        if room < 0.0:
+            work.least[OF_SOLIDS] = min(work.least[OF_SOLIDS], p.clearance + room)
+    return take_gaps(p, work.least, margins)

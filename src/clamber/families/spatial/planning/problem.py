@@ -267,12 +267,14 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         work_judged=np.zeros(2, JUDGED),
         work_statics=np.zeros(1, WORK),
         work_known=np.zeros(KEPT, KNOWN),
-        work_lifted=np.zeros(1, LIFTED),
+        work_lifted=np.zeros(KEPT_STANCES, LIFTED),
     )
 
 
 KEPT: Final = 1 << 14
 """Postures that each thread keeps; a power of two."""
+KEPT_STANCES: Final = 1 << 12
+"""Stances of which each thread keeps what limbs may be lifted: several layers of a beam; a power of two."""
 SAMPLED: Final = 100
 """Holds about which others are counted, to estimate how many there are for a limb."""
 ANY_YAW: Final = 7.0

@@ -46,11 +46,12 @@ LIFTED: Final = np.dtype(
     [
         ("pose", "i8", (AXES,)),
         ("hold", "i4", (LIMBS,)),
-        ("verdict", "i4", (LIMBS,)),  # first check violated without the limb, -1: none, -2: not judged yet
+        ("verdict", "i4", (LIMBS,)),  # first check of forces that is violated while the limb bears nothing, -1: none
+        ("known", "i4"),  # a bit for each limb whose verdict is kept
     ],
     align=True,
 )
-"""The last stance that limbs were lifted in, and what came of that."""
+"""Whether each limb of a stance may be lifted, kept because it depends on pose and holds alone."""
 GOAL: Final = np.dtype(
     [
         ("along_min", "f8"),
@@ -132,6 +133,7 @@ PARAMS: Final = np.dtype(
         ("work_known_at", "i8"),
         ("n_work_known", "i8"),
         ("work_lifted_at", "i8"),
+        ("n_work_lifted", "i8"),
     ],
     align=True,
 )

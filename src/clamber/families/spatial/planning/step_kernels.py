@@ -14,7 +14,8 @@ from ..statics.records import LIMBS
 from ..statics.seeds_kernels import scores, seed_index
 from ..statics.stance_kernels import aim_limb
 from .checks import SWING
-from .judging_kernels import SCRATCH, copy, judge_move, judge_stance, judge_swing, judge_taken, scratch_of
+from .judging_kernels import SCRATCH, copy, judge_stance, judge_taken, scratch_of
+from .passing_kernels import judge_move, judge_swing
 from .poses_kernels import (
     away_from,
     body_of,

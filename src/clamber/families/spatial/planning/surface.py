@@ -42,18 +42,22 @@ def fit_surface(places: Floats, grain: float, radius: float) -> tuple[Floats, tu
         Height [m] and both slopes of each node, shape (rows, columns, 3), and where the grid begins.
     """
     low = places[:, :2].min(axis=0) - radius
-    rows, columns = (np.ceil((places[:, :2].max(axis=0) + radius - low) / grain).astype(int) + 1).tolist()
-    made = np.zeros((max(2, rows), max(2, columns), 3))
-    damping = np.diag([0.0, SMOOTH, SMOOTH])
-    for i in range(made.shape[0]):
-        for j in range(made.shape[1]):
-            away = places[:, :2] - (low + grain * np.array((i, j)))
-            weight = np.exp(-(away**2).sum(axis=1) / (2.0 * radius**2)) + LEAST
-            terms = np.column_stack((np.ones(len(away)), away / radius))
-            matrix = (terms * weight[:, None]).T @ terms + damping * weight.sum()
-            fitted = np.linalg.solve(matrix, (terms * weight[:, None]).T @ places[:, 2])
-            made[i, j] = fitted[0], fitted[1] / radius, fitted[2] / radius
-    return made, (float(low[0]), float(low[1]))
+    counts = np.maximum(2, np.ceil((places[:, :2].max(axis=0) + radius - low) / grain).astype(int) + 1)
+    away = [(places[:, a] - (low[a] + grain * np.arange(counts[a]))[:, None]) / radius for a in (0, 1)]
+    near = [np.exp(-0.5 * u**2) for u in away]  # the weight of a hold is the product of both
+
+    def total(along: int, across: int, values: Floats | float = 1.0) -> Floats:
+        """Sums over the holds of weight, values and powers of how far away they are, of each node."""
+        u, v = away[0] ** along * values, away[1] ** across
+        made: Floats = (near[0] * u) @ (near[1] * v).T + LEAST * u @ v.T
+        return made
+
+    powers = ((0, 0), (1, 0), (0, 1))
+    matrix = np.array([[total(i + k, j + m) for k, m in powers] for i, j in powers]).transpose(2, 3, 0, 1)
+    matrix[..., (1, 2), (1, 2)] += SMOOTH * matrix[..., :1, 0]
+    sums = np.array([total(i, j, places[:, 2]) for i, j in powers]).transpose(1, 2, 0)
+    fitted = np.linalg.solve(matrix, sums[..., None])[..., 0] / (1.0, radius, radius)
+    return fitted, (float(low[0]), float(low[1]))
 
 
 def span_along(frames: Floats, reach: float, height: float) -> float:

@@ -80,12 +80,41 @@ def pair_gap(robot, i, j, p, q):
 
 
 @kernel
-def limbs_gap(robot, origin, only):
-    """Smallest gap between links of different limbs, whose joints are at `origin`, or of one of them and all others [m]; `only` -1: all."""
-    gap = UNLIMITED
+def boxes_apart(robot, i, j, p, q):
+    """Distance that the boxes about two limbs' links keep, along the axes of the frame of their joints p and q, less the links' radii [m].
+
+    No link of the one is nearer to one of the other.
+    """
+    square, thick, other = 0.0, 0.0, 0.0
+    for a in range(3):
+        low, high = math.inf, -math.inf
+        for k in range(BESIDE, robot.n_joints[i] + 1):
+            low, high = min(low, p[k, a]), max(high, p[k, a])
+        under, over = math.inf, -math.inf
+        for h in range(BESIDE, robot.n_joints[j] + 1):
+            under, over = min(under, q[h, a]), max(over, q[h, a])
+        away = max(0.0, under - high, low - over)
+        square += away * away
+    for k in range(BESIDE, robot.n_joints[i]):
+        thick = max(thick, robot.radius[i, k])
+    for h in range(BESIDE, robot.n_joints[j]):
+        other = max(other, robot.radius[j, h])
+    return math.sqrt(square) - thick - other
+
+
+@kernel
+def limbs_gap(robot, origin, only, gap):
+    """Smallest gap between links of different limbs, or of one of them and all others, if less than `gap` [m].
+
+    Args:
+        robot: Record of `ROBOT`.
+        origin: Of all limbs' joints.
+        only: Limb whose links alone are held against the others', -1: all.
+        gap: What is returned where nothing is nearer.
+    """
     for i in range(robot.n_limbs):
         for j in range(i):
-            if only < 0 or only in (i, j):
+            if (only < 0 or only in (i, j)) and boxes_apart(robot, i, j, origin[i], origin[j]) < gap:
                 gap = min(gap, pair_gap(robot, i, j, origin[i], origin[j]))
     return gap
 
