@@ -1,6 +1,7 @@
 """Maps of what a robot in space can reach, and sweeps over keys of its robot and its world, as commands give them."""
 
 import json
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -34,7 +35,9 @@ def test_a_map_is_complete_and_tells_which_limbs_get_to_which_holds(clamber: Run
     with Image.open(picture) as image:
         assert image.width > 400
     code, told, _ = clamber("reach", "wall-gripper", *said(*SMALL))
-    assert code == 0 and "of each limb: LF 1" in told and "along [" in told
+    assert code == 0 and "of each limb: LF 1" in told and "along" in told and "[cm]" in told
+    shares = [int(re.findall(rf"{place} +(\d+) %", told)[0]) for place in ("hardest place", "middle", "easiest place")]
+    assert 0 < shares[0] < shares[1] < shares[2] < 100
 
 
 @pytest.mark.slow

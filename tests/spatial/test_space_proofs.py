@@ -93,6 +93,13 @@ def test_a_fifth_of_a_metre_is_proved_shortest_among_60_holds() -> None:
     assert found.status == "optimal" and found.check().ok, found.reason
 
 
+@pytest.mark.long
+def test_six_tenths_of_a_metre_are_proved_shortest_on_the_whole_lattice() -> None:
+    found = plan_exact(task("patch-gripper", "goal.along_min='0.6 m'"), threads=1, max_stances=4_000_000)
+    assert found.status == "optimal" and found.check().ok, found.reason
+    assert len(found.plan.actions) == found.lower_bound == 26
+
+
 @cache
 def actions_of(name: str) -> tuple[SpatialTask, Any, Any]:
     """Stances of a plan, each with every action from it: moves, and every limb to the holds that are nearest."""

@@ -169,13 +169,12 @@ def judge_shape(robot, tables, body, contacts, before, rules, out, work):
             first = check
     if first >= 0 and not rules.exact:
         return first
-    away = UNLIMITED if rules.exact else robot.limb_room
-    margins[LIMB_LIMB] = limbs_gap(robot, work.origin, -1, away) - robot.limb_room
+    margins[LIMB_LIMB] = limbs_gap(robot, work.origin, -1, UNLIMITED) - robot.limb_room
     if violated(rules, margins, LIMB_LIMB) and first < 0:
         first = LIMB_LIMB
         if not rules.exact:
             return first
-    margins[LIMB_BODY] = body_gap(robot, work.origin, -1, UNLIMITED if rules.exact else 0.0)
+    margins[LIMB_BODY] = body_gap(robot, work.origin, -1, UNLIMITED)
     if violated(rules, margins, LIMB_BODY) and first < 0:
         first = LIMB_BODY
     return first
@@ -220,7 +219,7 @@ def judge(robot, tables, body, contacts, before, rules, out, work):
 
     Returns:
         Number of the first hard check that is violated (`checks.STANCE_CHECKS`), -1 if none is. With `exact` rules all margins are
-        written, unless a limb does not reach its hold; without, those of gaps and forces as far as the verdict needs them.
+        written, unless a limb does not reach its hold.
     """
     first = judge_shape(robot, tables, body, contacts, before, rules, out, work)
     if not out.judged or (first >= 0 and not rules.exact):
