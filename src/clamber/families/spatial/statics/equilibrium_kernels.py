@@ -8,7 +8,7 @@ with s to spare, a foot with a share of the weight on it: a limb that is not nee
 
 import math
 
-from ....compiled import kernel
+from ....compiled import inlined, kernel
 from ....planning.problem.check import UNLIMITED
 from .checks import EQUILIBRIUM, SLIP, TORQUE
 from .programme_kernels import eliminate, maximise
@@ -236,6 +236,15 @@ def read_margins(robot, work, weight, out):
             margins[TORQUE] = min(margins[TORQUE], robot.torque[limb, k] - abs(torque))
 
 
+@inlined
+def without_load(work, n):
+    """Whether nothing has to be balanced, so that all of every limit can be left."""
+    most = 0.0
+    for i in range(6):
+        most = max(most, abs(work.balance[i, n]))
+    return most < 1.0 - ALL
+
+
 @kernel
 def balance_forces(robot, work, rules, out):
     """Judge the forces of the stance that `work` describes: fills `out.s`, wrenches and the margins from `equilibrium` on.
@@ -247,7 +256,9 @@ def balance_forces(robot, work, rules, out):
     n = fill_balance(robot, work, weight)
     margins = out.margins
     out.pivots = 0
-    share = relax_forces(robot, work, weight, ALL if rules.exact else rules.need, 0 if rules.exact else STEPS, n)
+    share = -math.inf
+    if not rules.exact or without_load(work, n):
+        share = relax_forces(robot, work, weight, ALL if rules.exact else rules.need, 0 if rules.exact else STEPS, n)
     if share > -math.inf:  # if it is less than the need: a motor that its own limb's weight is too much for
         out.s = share
         margins[EQUILIBRIUM] = share - rules.need

@@ -21,6 +21,8 @@ UNBALANCED = 1e-7
 OPTIMAL = 1e-10
 SMALLEST_PIVOT = 1e-8
 """Smaller ones are rounding: postures are solved to parts in a million, and a basis turned on such a pivot is next to singular."""
+ABREAST = 4
+"""Unknowns whose terms are added in one go, in their order: sums are read and written that much less often."""
 FEASIBLE = 1e-9
 """How far below zero a multiplier of the dual may fall, so that a larger pivot can be had."""
 
@@ -88,12 +90,12 @@ def leaving(work, size, bland):
                 if ratio < most or (ratio == most and basis[i] < basis[leave]):
                     most, leave = ratio, i
         return leave
+    for i in range(size):  # without branches, which nothing would foresee
+        ratio = (dual[i] + FEASIBLE) / max(entering[i], SMALLEST_PIVOT)
+        most = min(most, ratio if entering[i] > SMALLEST_PIVOT else math.inf)
+    largest = SMALLEST_PIVOT
     for i in range(size):
-        if entering[i] > SMALLEST_PIVOT:
-            most = min(most, (dual[i] + FEASIBLE) / entering[i])
-    largest = 0.0
-    for i in range(size):
-        if entering[i] > max(SMALLEST_PIVOT, largest) and dual[i] <= most * entering[i]:
+        if (entering[i] > largest) & (dual[i] <= most * entering[i]):
             largest, leave = entering[i], i
     return leave
 
@@ -138,10 +140,18 @@ def maximise(work, m, d, need):
             return lower, upper, pivot
         for i in range(m):
             residual[i] = bound[i]
-        for k in range(d):
+        k = 0
+        while k + ABREAST <= d:
+            z0, z1, z2, z3 = price[k], price[k + 1], price[k + 2], price[k + 3]
+            for i in range(m):
+                left = residual[i] - columns[k, i] * z0 - columns[k + 1, i] * z1
+                residual[i] = left - columns[k + 2, i] * z2 - columns[k + 3, i] * z3
+            k += ABREAST
+        while k < d:
             z = price[k]
             for i in range(m):
                 residual[i] -= columns[k, i] * z
+            k += 1
         outside = False
         worst, enter = math.inf, -1
         for i in range(m):
@@ -180,10 +190,19 @@ def maximise(work, m, d, need):
             gap = residual[enter] - s
             for i in range(size):
                 entering[i] = inverse[d, i]
-            for k in range(d):
+            k = 0
+            while k + ABREAST <= d:
+                a0, a1 = columns[k, enter], columns[k + 1, enter]
+                a2, a3 = columns[k + 2, enter], columns[k + 3, enter]
+                for i in range(size):
+                    total = entering[i] + inverse[k, i] * a0 + inverse[k + 1, i] * a1
+                    entering[i] = total + inverse[k + 2, i] * a2 + inverse[k + 3, i] * a3
+                k += ABREAST
+            while k < d:
                 a = columns[k, enter]
                 for i in range(size):
                     entering[i] += inverse[k, i] * a
+                k += 1
         else:
             k = (enter - m) >> 1
             side = 1.0 if (enter - m) & 1 == 0 else -1.0
