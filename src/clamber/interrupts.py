@@ -1,10 +1,10 @@
 """Ctrl-C: what is asked to end is asked again until somebody answers, because an exception that is raised in compiled code may be lost."""
 
-import math
 import signal
 import sys
 import threading
 import time
+from _thread import start_new_thread
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -18,7 +18,8 @@ AGAIN: Final = 0.4
 PATIENCE: Final = 1.0
 """How long machine code is waited for that is loaded after Ctrl-C, to tell what there is [s]."""
 HEARD: Final = 0.1
-"""So often whoever waits looks up: a signal that another thread is given does not wake the main one, which alone hears it [s]."""
+"""So often whoever waits looks up: a signal that another thread is given does not wake the main one, which alone hears it, and what that
+one hears wakes no other [s]."""
 STACK: Final = 16 << 20
 """Of a thread that compiles [B]: half a megabyte, as some systems give to one, is too little for LLVM."""
 
@@ -35,7 +36,7 @@ class _Interrupts:
     """Blocks of `passed_on` that are open."""
     listens: bool = False
     """Whether Ctrl-C is raised again until it is answered."""
-    calls: set[threading.Event] = field(default_factory=set)
+    calls: set[object] = field(default_factory=set)
     """Of `abandonable`, that have not ended."""
 
 
@@ -106,7 +107,10 @@ def abandonable(work: Callable[[], T]) -> T:
         return work()
     answers: list[T] = []
     errors: list[BaseException] = []
-    ended = threading.Event()
+    works = (
+        threading.Lock()
+    )  # an `Event`, as `threading.Thread` waits for, breaks where a signal's handler ends the wait or sets it
+    works.acquire()
 
     def call() -> None:
         _here.works = True
@@ -115,23 +119,21 @@ def abandonable(work: Callable[[], T]) -> T:
         except BaseException as error:  # raised where it is waited for
             errors.append(error)
         finally:
-            _now.calls.discard(ended)
-            ended.set()
+            _now.calls.discard(works)
+            works.release()
 
     before = threading.stack_size(STACK)
     try:
-        thread = threading.Thread(target=call, daemon=True)
-        _now.calls.add(ended)
-        thread.start()
+        _now.calls.add(works)
+        start_new_thread(call, ())
     finally:
         threading.stack_size(before)
-    until = time.monotonic() + PATIENCE if _now.asked else math.inf  # what was left behind may hold Numba's lock
-    while not ended.wait(HEARD) and time.monotonic() < until:
-        pass
+    patient = time.monotonic() + PATIENCE if _now.asked else 0.0  # what was left behind may hold Numba's lock
+    while not works.acquire(timeout=HEARD):
+        if _now.asked and time.monotonic() >= patient:
+            raise KeyboardInterrupt
     if errors:
         raise errors[0]
-    if not answers:  # Ctrl-C has ended the wait
-        raise KeyboardInterrupt
     return answers[0]
 
 
@@ -176,8 +178,6 @@ def listening() -> Iterator[None]:
 
 def _hear(number: int, frame: FrameType | None) -> None:
     _now.asked = _now.open = True
-    for ended in tuple(_now.calls):
-        ended.set()
     _hear_again(number, frame)
 
 

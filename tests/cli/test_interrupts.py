@@ -457,6 +457,40 @@ def test_a_thread_that_waits_for_a_long_call_leaves_it_behind_too() -> None:
     hold.set()
 
 
+AT_A_LINE = """
+import itertools, signal, sys, time
+from clamber import interrupts
+
+def interrupting(line):
+    lines = itertools.count(1)
+    def trace(frame, event, argument):
+        if event == "line" and next(lines) == line:
+            signal.raise_signal(signal.SIGINT)
+        return trace
+    return trace
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+for line in itertools.count(1):
+    with interrupts.listening():
+        sys.settrace(interrupting(line))
+        try:
+            interrupts.abandonable(lambda: time.sleep(0.01))
+        except KeyboardInterrupt:
+            interrupts.answer()
+        else:
+            break
+        finally:
+            sys.settrace(None)
+print(line)
+"""
+
+
+def test_an_interrupt_at_any_line_of_a_wait_for_a_long_call_ends_it() -> None:
+    """`threading.Event` locks whoever is interrupted while it holds the own lock of the event; so would the start of a `Thread`."""
+    ended = subprocess.run([sys.executable, "-c", AT_A_LINE], capture_output=True, text=True, timeout=60, check=False)
+    assert ended.returncode == 0 and int(ended.stdout) > 10, ended.stderr
+
+
 COMPILED_LATE = """
 import signal
 from clamber import interrupts
