@@ -13,7 +13,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
-from clamber.benchmarks.rows import Row
 from clamber.benchmarks.walls import sampled_stances, wall_rows
 from clamber.cli import main
 from clamber.errors import PlannerError, SpecError
@@ -31,6 +30,7 @@ from clamber.planning.problem.problems import pose_problem
 from clamber.planning.route import plan_route
 from clamber.tasks import load_task
 from clamber.toml_text import toml_text
+from clamber.trials.measured import Row
 
 SEEDS = st.integers(0, 2**63 - 1)
 

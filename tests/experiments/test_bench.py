@@ -14,16 +14,7 @@ import pytest
 
 from clamber.benchmarks import batches, benches, peers, rows, speed, starts
 from clamber.benchmarks.batches import ScalingLaw
-from clamber.benchmarks.planner_trials import (
-    ABLATION_TASKS,
-    VARIANTS,
-    Crew,
-    bench_ablation,
-    run_cases,
-    run_trials,
-    varied,
-)
-from clamber.benchmarks.rows import NOTHING, Row, median_or_nothing
+from clamber.benchmarks.planner_trials import ABLATION_TASKS, VARIANTS, bench_ablation, run_cases, run_trials, varied
 from clamber.benchmarks.speed import PlainProblem, plain_module
 from clamber.benchmarks.starts import performance_page
 from clamber.execution.plant import PlantStoppedError
@@ -35,6 +26,7 @@ from clamber.planning.genetic.profile import load_profile
 from clamber.planning.problem.problem import CompiledProblem
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
+from clamber.trials.measured import NOTHING, Crew, Row, median_or_nothing
 
 NEAR = ("goal.y_min=12in",)
 """A goal two steps up: found at once."""

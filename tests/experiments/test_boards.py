@@ -29,7 +29,6 @@ from clamber.benchmarks.contest import (
     thesis_case,
 )
 from clamber.benchmarks.pictures.boards_plot import draw_boards
-from clamber.benchmarks.planner_trials import Crew
 from clamber.benchmarks.tables import (
     contradictions,
     groups,
@@ -50,6 +49,7 @@ from clamber.planning.exact.explore import explore
 from clamber.planning.planners import PLANNERS, BuiltIn, accepts, find_planner
 from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import Task, load_task, task_from_document
+from clamber.trials.measured import Crew
 from here import Here
 from plain.search import breadth_first
 

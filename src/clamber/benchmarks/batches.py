@@ -15,9 +15,8 @@ from ..jobs import Executor, LocalProcesses, map_items
 from ..jobs.store import Store
 from ..planning.sweep import plan_point
 from ..tasks import load_task
+from ..trials.measured import Crew, Row, Say, keep_quiet
 from ..types import Json
-from .planner_trials import Crew
-from .rows import Row, Say, keep_quiet
 
 GOOD = 0.8
 """Efficiency from which a number of cores counts as worth it."""

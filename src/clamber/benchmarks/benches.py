@@ -10,6 +10,8 @@ from typing import Final
 import numpy as np
 
 from ..errors import how_to_install
+from ..families.spatial.trials.speed import law_rows, space_rows
+from ..families.spatial.trials.worlds import bench_worlds
 from ..families.walker.control.cooperative.closest import ReachSearch
 from ..families.walker.control.cooperative.cooperator import Cooperator
 from ..families.walker.control.cooperative.freedoms import freedoms_of, weights_of
@@ -26,18 +28,16 @@ from ..planning.genetic.profile import load_profile
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
 from ..tasks.robots import read_robot
+from ..trials.measured import NOTHING, Crew, Row, Say, keep_quiet, round_times
 from ..types import Floats
 from .batches import batch_rows
 from .breadth import breadth_first
 from .climb_speed import climb_rows
 from .contest import run_contest
-from .control_speed import control_rows, installed, region_rows, round_times
+from .control_speed import control_rows, installed, region_rows
 from .peers import race_rows
-from .planner_trials import Crew, bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
+from .planner_trials import bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
 from .plant_bench import plant_rows
-from .rows import NOTHING, Row, Say, keep_quiet
-from .space_seeds import bench_worlds
-from .space_speed import law_rows, space_rows
 from .speed import speed_rows
 from .starts import command_rows, start_rows
 from .tables import rows_of

@@ -25,10 +25,9 @@ from ..jobs import LocalProcesses
 from ..planning.problem.plan import Plan
 from ..sim.limb_flaws import LimbFlaws
 from ..tasks import load_task
+from ..trials.measured import Row, Say, keep_quiet, round_times
 from ..types import Floats, Json
 from .batches import run_batch
-from .control_speed import round_times
-from .rows import Row, Say, keep_quiet
 
 
 class TapedClimberPlant(ClimberPlant):

@@ -13,8 +13,8 @@ from ..jobs import LocalProcesses, Outcome, map_items, read_result
 from ..planning.genetic.profile import profile_names
 from ..planning.planners import PLANNERS, accepts, find_planner
 from ..tasks import load_task, task_from_document
+from ..trials.measured import Crew
 from ..types import Json
-from .planner_trials import Crew
 
 NO_HANGS: Final = ("rules.max_hangs=0",)
 """With any number of hangs the reachable space doesn't close, and nothing could be proved."""

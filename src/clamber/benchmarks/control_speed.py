@@ -29,8 +29,8 @@ from ..sim.mujoco_limb import MujocoLimb
 from ..sim.ode_limb import OdeLimb
 from ..sim.raw_steps import RawSteps
 from ..tasks.robots import read_robot
+from ..trials.measured import NOTHING, Row, Say, keep_quiet, round_times
 from ..types import Floats, Records
-from .rows import NOTHING, Row, Say, keep_quiet
 
 Tick: TypeAlias = Callable[[Floats, Floats], Floats]
 """Joint speeds [rad/s] that bring the tip from the joint angles [rad] to a place of the base frame [m] within one period."""
@@ -99,7 +99,6 @@ def installed(peer: str) -> bool:
     return all(importlib.util.find_spec(name) is not None for name in (peer, "qpsolvers", SOLVER))
 
 
-Clock: TypeAlias = Callable[[], float]
 ROUNDS: Final = 15
 """How often each piece of work is timed; the median counts, of a ratio that of the ratios of each round."""
 STATES: Final = 64
@@ -153,22 +152,6 @@ def laws_timed() -> dict[str, LawSettings]:
     """Label -> settings of every law, and of one with every feed-forward."""
     whole = law_named("scct").with_changes(feed_acceleration=True, feed_bias=True, feed_friction=1.0)
     return {**{law: law_named(law) for law in LAWS}, "scct with every feed-forward": whole}
-
-
-def round_times(works: Sequence[Callable[[], Any]], rounds: int, clock: Clock = time.thread_time) -> Floats:
-    """Time of each piece of work in each round [s], shape (rounds, works); they take turns, so that a busy machine hits all alike.
-
-    The clock is this thread's share of a core, which does not run while others have the core; work on many threads needs another.
-    """
-    times = np.empty((rounds, len(works)))
-    for work in works:
-        work()
-    for row in times:
-        for i, work in enumerate(works):
-            start = clock()
-            work()
-            row[i] = clock() - start
-    return times
 
 
 def random_states(limb: TimedLimb, shape: tuple[int, ...]) -> Floats:

@@ -17,7 +17,7 @@ from ..planning.genetic.profile import load_profile
 from ..planning.problem.problem import CompiledProblem
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
-from .rows import NOTHING, Row, Say, keep_quiet, median_or_nothing
+from ..trials.measured import NOTHING, Row, Say, keep_quiet, median_or_nothing
 from .speed import PlainProblem, plain_module
 
 POPULATION: Final = 150

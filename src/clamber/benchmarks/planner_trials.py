@@ -1,18 +1,15 @@
 """Many seeds of the genetic planner: on every task, with one ingredient off at a time, without filters, with a learned macro."""
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
-from pathlib import Path
 from statistics import median
 from threading import Event
 from typing import Any, Final
 
-from ..errors import StatedError
 from ..files import Document
-from ..jobs import Executor, LocalProcesses, map_items
-from ..jobs.batch import Progress
+from ..jobs import LocalProcesses
 from ..planning.genetic.learning import Macro
 from ..planning.genetic.planner import plan_genetic
 from ..planning.genetic.profile import Profile, load_profile
@@ -21,8 +18,8 @@ from ..planning.problem.problems import pose_problem
 from ..planning.progress import ProgressEvent
 from ..specs import build_spec
 from ..tasks import Task, load_task, task_from_document
+from ..trials.measured import NOTHING, Crew, Row, Say, keep_quiet, median_or_nothing
 from ..types import Json
-from .rows import NOTHING, Row, Say, keep_quiet, median_or_nothing
 
 EVALUATIONS = 50_000
 """Budget of one trial, polishing included."""
@@ -55,40 +52,6 @@ class Trials:
         ]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Crew:
-    """Who runs many trials, and where their results are kept."""
-
-    executor: Executor
-    store: Path | None = None
-    resume: bool = False
-    progress: Progress | None = None
-
-    def answers(self, work: Callable[[Json], Json], items: Sequence[Json], about: Json, title: str) -> list[Json]:
-        """What every item's work answers, in order.
-
-        Raises:
-            StoreError: If the file can't be the store of these items.
-            ClusterError: If there is no cluster to run on, or it is lost.
-            TrialError: If a work raised, or its workers died.
-        """
-        told: list[Json] = []
-        for outcome in map_items(
-            work,
-            items,
-            executor=self.executor,
-            store=self.store,
-            about=about,
-            title=title,
-            resume=self.resume,
-            progress=self.progress,
-        ):
-            if outcome.result is None:
-                raise TrialError(outcome.error or "")
-            told.append(outcome.result)
-        return told
-
-
 def run_cases(
     cases: Mapping[str, tuple[Task, Profile]], seeds: Iterable[int], crew: Crew | None = None
 ) -> dict[str, Trials]:
@@ -114,13 +77,6 @@ def run_cases(
     told = [tuple(answer["told"]) for answer in answers]
     rows = [told[k : k + len(chosen)] for k in range(0, len(told), len(chosen))]
     return {label: Trials(*zip(*row, strict=True)) for label, row in zip(cases, rows, strict=True)}
-
-
-class TrialError(StatedError):
-    """A trial ended without an answer."""
-
-    says = "a trial failed: {problem}"
-    problem: str
 
 
 def run_trial(item: Json) -> Json:

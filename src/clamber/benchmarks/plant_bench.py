@@ -29,8 +29,8 @@ from ..planning.problem.plan import Plan
 from ..sim.limb_flaws import LimbFlaws
 from ..sim.wires import ClimberWires
 from ..tasks import load_task
+from ..trials.measured import Row, Say, keep_quiet
 from ..types import Floats
-from .rows import Row, Say, keep_quiet
 
 TASK: Final = "ladder"
 GAIT: Final = (191, 392, 291, 300, 3, 3)

@@ -25,8 +25,8 @@ from ..planning.problem.plan_source import open_plan, plan_names
 from ..planning.problem.problem import CompiledProblem, Records
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
+from ..trials.measured import NOTHING, Row, Say, keep_quiet
 from ..types import Ints
-from .rows import NOTHING, Row, Say, keep_quiet
 
 CHECKOUT: Final = Path(__file__).resolve().parents[3]
 PACKAGE: Final = "clamber_tests_plain"

@@ -13,7 +13,7 @@ from typing import Final
 from .. import __version__
 from ..jobs.release import version_of
 from ..kernel_cache import cache_root
-from .rows import Row, Say, keep_quiet
+from ..trials.measured import Row, Say, keep_quiet
 
 COMMAND: Final = (sys.executable, "-c", "from clamber.cli import main; main()")
 STARTS: Final = 3

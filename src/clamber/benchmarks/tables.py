@@ -9,8 +9,8 @@ from pathlib import Path
 from statistics import median
 
 from ..files import write_atomically
+from ..trials.measured import Row, median_or_nothing
 from .contest import Contest, Trial, Truth
-from .rows import Row, median_or_nothing
 
 PROVED = ("infeasible",)
 

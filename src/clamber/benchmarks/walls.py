@@ -23,7 +23,7 @@ from ..planning.problem.problem import Records
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
 from ..toml_text import toml_text
-from .rows import Row, Say, keep_quiet
+from ..trials.measured import Row, Say, keep_quiet
 from .speed import best_times
 
 SIZES: Final = (100, 1000, 10_000)

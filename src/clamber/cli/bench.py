@@ -16,8 +16,7 @@ from ..terminal.worker_options import Batch, EndsLine, check_resume, executor_of
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
-    from ..benchmarks.planner_trials import Crew
-    from ..benchmarks.rows import Row
+    from ..trials.measured import Crew, Row
 
 
 def bench(
@@ -35,7 +34,7 @@ def bench(
     """
     check_resume(resume, store)
     from ..benchmarks.benches import BATCHED, BENCHES, run_bench
-    from ..benchmarks.planner_trials import Crew
+    from ..trials.measured import Crew
 
     chosen = tuple(names or BENCHES)
     only = chosen[0] if len(chosen) == 1 else None

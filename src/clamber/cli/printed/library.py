@@ -6,7 +6,6 @@ from typing import Any, Final
 
 from pydantic import TypeAdapter, create_model
 
-from ...benchmarks.rows import Row
 from ...errors import UnknownNameError
 from ...exports.library import Exported
 from ...family import families
@@ -26,6 +25,7 @@ from ...planning.reach.reach import Reach
 from ...planning.result import PlanResult
 from ...planning.sweep import Sweep
 from ...studies.result import StudyResult
+from ...trials.measured import Row
 from ...types import Json
 from ..doctor_facts import Health
 from ..list import LISTED as KINDS_LISTED

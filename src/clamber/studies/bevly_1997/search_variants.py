@@ -8,10 +8,10 @@ from typing import Final
 from scipy.stats import binomtest, fisher_exact
 
 from ...benchmarks.planner_trials import Trials, run_trials, varied
-from ...benchmarks.rows import median_or_nothing
 from ...families.climber.planning.inventory import full_inventory, make_inventory
 from ...planning.genetic.profile import load_profile
 from ...planning.problem.codes import Code
+from ...trials.measured import median_or_nothing
 from ..result import Compared, StudyResult, Table, Value, Verdict
 from .printed_plans import INFERRED, limbed_task
 

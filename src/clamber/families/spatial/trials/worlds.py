@@ -5,13 +5,12 @@ import time
 from collections.abc import Sequence
 from typing import Final
 
-from ..errors import ClamberError
-from ..jobs import LocalProcesses
-from ..planning.auto import plan_auto
-from ..tasks import load_task, task_names
-from ..types import Json
-from .planner_trials import Crew
-from .rows import Row, Say, keep_quiet, median_or_nothing
+from ....errors import ClamberError
+from ....jobs import LocalProcesses
+from ....planning.auto import plan_auto
+from ....tasks import load_task, task_names
+from ....trials.measured import Crew, Row, Say, keep_quiet, median_or_nothing
+from ....types import Json
 
 TASKS: Final = {
     "wall-gripper": "20 of 20, 3 s",

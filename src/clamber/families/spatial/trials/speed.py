@@ -9,17 +9,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..control.whole_body.law import BodyLaw, WholeBody
-from ..errors import how_to_install
-from ..families.spatial.control.laws import BODY_LAWS, USUAL
-from ..families.spatial.statics.checks import STANCE_CHECK
-from ..families.spatial.statics.judging import rules_record
-from ..families.spatial.trials.law_rivals import RIVALS, Rival, installed
-from ..families.spatial.trials.law_trials import Moment, first_steps, law_at, spatial_task, time_loop, try_law
-from ..families.spatial.trials.rival_stances import Stances, jet_stances, shipped_stances
-from ..families.spatial.trials.stance_rivals import Verdict, connect, highs, hpp, jet_leg, programme
-from .control_speed import round_times
-from .rows import NOTHING, Row, Say, keep_quiet
+from ....control.whole_body.law import BodyLaw, WholeBody
+from ....errors import how_to_install
+from ....trials.measured import NOTHING, Row, Say, keep_quiet, round_times
+from ..control.laws import BODY_LAWS, USUAL
+from ..statics.checks import STANCE_CHECK
+from ..statics.judging import rules_record
+from .law_rivals import RIVALS, Rival, installed
+from .law_trials import Moment, first_steps, law_at, spatial_task, time_loop, try_law
+from .rival_stances import Stances, jet_stances, shipped_stances
+from .stance_rivals import Verdict, connect, highs, hpp, jet_leg, programme
 
 RATES: Final = {"gripper-climber": ">= 60 000", "hexapod": ">= 30 000", "clamp-triped": ">= 25 000"}
 """Robot -> checks a second that the project aims at, on a core."""
