@@ -10,8 +10,8 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_392,
-    "files": 665,
+    "lines": 100_356,
+    "files": 663,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 53,
     "median length of a line": 40,

@@ -5,7 +5,6 @@ import math
 import numpy as np
 import pytest
 
-from clamber.compiled import Handle
 from clamber.families.climber.control.felt_force import FLAT, feel_forces
 from clamber.families.climber.execution.fall import FallWatch
 from clamber.families.climber.execution.whole_body import WholeBody
@@ -58,8 +57,9 @@ def weight_torques(body: WholeBody, i: int, q: Floats) -> Floats:
 
 def feel(body: WholeBody, q: Floats, qd: Floats, before: Floats, torques: Floats) -> Floats:
     felt, forces = np.zeros((body.n, 2)), np.zeros((body.n, 2))
-    handle = Handle(body.legs, body.held, q, qd, before.copy(), np.array(torques), felt, forces)
-    feel_forces(handle, ANGLE, PERIOD, 1.0)
+    body.pose[2] = ANGLE
+    work = body.work._replace(q=q, qd=qd, torques=np.array(torques))
+    feel_forces(work, before.copy(), felt, forces, PERIOD, 1.0)
     return forces
 
 

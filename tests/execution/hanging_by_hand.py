@@ -73,7 +73,7 @@ def hang_up(
     pose = pendulum.pose(q, np.zeros(2), pendulum.rest(q) + swing)
     plant.reset(pose, q)
     for i in range(len(robot.limbs)):
-        climber.body.tasks[i] = LimbTask("swing_joint", angles=q[i].copy())
+        climber.body.assign(i, LimbTask("swing_joint", angles=q[i].copy()))
     climber.body.tasks[limb].hold, climber.body.tasks[limb].mode = PEG, "hang"
     sensed = plant.sense()
     climber.body.see(sensed.q, sensed.qd, sensed.angle, sensed.angle_speed)

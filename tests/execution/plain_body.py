@@ -12,7 +12,7 @@ from clamber.families.climber.control.body_estimate import ENCODER, estimate_bod
 from clamber.families.climber.control.hook_forces import MOST_CUTS
 from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS
 from clamber.families.climber.execution.limb_task import LimbTask
-from clamber.families.climber.execution.whole_body import LOAD_TIME, WholeBody
+from clamber.families.climber.execution.whole_body import HANDING_OVER, LOAD_TIME, WholeBody
 from clamber.types import Floats
 
 
@@ -21,19 +21,54 @@ class PlainBody(WholeBody):
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, angle_from: int = ENCODER) -> None:
         self.q[:], self.qd[:] = q, qd
+        weights = self._pass_load()
         for i, task in enumerate(self.tasks):
             self.held[i] = task.holds
             if task.holds:
                 self._holds[i] = task.place
-        self._pass_load()
         for angles, tips, speeds, pose, twist in (
             (self.q, self.tips, self.tip_speeds, self.pose, self.twist),
             (self.q - self.play, self.settled_tips, np.zeros((self.n, 2)), self.settled, np.zeros(3)),
         ):
             estimate_body(
-                self.legs, angles, self.qd, self._weights, self._holds, angle, angle_speed, angle_from,
+                self.legs, angles, self.qd, weights, self._holds, angle, angle_speed, angle_from,
                 tips, speeds, pose, twist,
             )  # fmt: skip
+
+    def _pass_load(self) -> Floats:
+        """One tick of a hand-over; how much each limb that holds says about where the body is, shape (n,)."""
+        before, after = self._carriers.astype(float)
+        if self.handing_over:
+            self._handed[0] += self.period / HANDING_OVER
+            if self._handed[0] > 1.0 - 0.5 * self.period / HANDING_OVER:
+                self._handed[0] = 1.0
+                for task, carries in zip(self.tasks, after, strict=True):
+                    if task.holds and not carries:
+                        task.mode = "unloaded_contact"
+        if not self.handing_over:
+            return np.array([float(task.holds) for task in self.tasks])
+        return (1.0 - self._part()) / before.sum() * before + self._part() / after.sum() * after
+
+    def _part(self) -> float:
+        """Of the load that has passed [-]: to the last bit as compiled, for the search by halves of `pair_forces` makes more of a bit."""
+        u = float(self._handed[0])
+        return u * u * (3.0 - 2.0 * u)
+
+    def tip(self, i: int) -> Floats:
+        return self.settled[:2] + self._turned(float(self.settled[2]), self.settled_tips[i])
+
+    def felt_tip(self, i: int) -> Floats:
+        return self.pose[:2] + self._turned(float(self.pose[2]), self.tips[i])
+
+    def tip_speed(self, i: int) -> Floats:
+        x, y = self.tips[i]
+        relative = self.tip_speeds[i] + self.twist[2] * np.array((-y, x))
+        return self.twist[:2] + self._turned(float(self.pose[2]), relative)
+
+    def grab_direction(self, i: int) -> Floats:
+        limb = self.robot.limbs[i]
+        angle = self.pose[2] + limb.port_angle + self.q[i].sum() + limb.end.angle
+        return np.array((math.cos(angle), math.sin(angle)))
 
     def command(self) -> Floats:
         gains, n = self.gains, self.n

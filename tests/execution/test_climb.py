@@ -2,7 +2,6 @@
 
 import itertools
 import math
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -57,7 +56,7 @@ class TurnedEncoder:
 
     def sense(self) -> BodySensed:
         sensed = self.plant.sense()
-        return replace(sensed, angle=sensed.angle + self.offset)
+        return sensed._replace(angle=sensed.angle + self.offset)
 
 
 def on_the_ladder(

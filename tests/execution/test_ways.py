@@ -230,7 +230,7 @@ def on_three_holds() -> WholeBody:
     """A body whose limbs all carry."""
     body = WholeBody(libra(), period=0.005)
     for i in range(3):
-        body.tasks[i] = LimbTask("stance", i + 1, np.zeros(2))
+        body.assign(i, LimbTask("stance", i + 1, np.zeros(2)))
     body.see(np.full((3, 2), 0.5), np.zeros((3, 2)), 0.0, 0.0)
     return body
 

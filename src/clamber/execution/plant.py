@@ -1,7 +1,7 @@
 """What carries a controller's commands out, simulated or real, here or in another process: one protocol, and what a kind adds."""
 
 from dataclasses import dataclass, field
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, NamedTuple, Protocol, TypeVar
 
 import numpy as np
 
@@ -102,8 +102,7 @@ class LimbPlant(Plant[Sensed, Truth], Protocol):
         """Put every limb at rest at the joint angles `q`, shape (n,) or (batch, n) [rad], at time 0."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BodySensed:
+class BodySensed(NamedTuple):
     """What the sensors of a climber say at a tick; the arrays are the plant's own."""
 
     q: Floats
@@ -137,8 +136,7 @@ class HoldBreak(Jsonable):
         return f"hold {self.hold} broke at {self.time:.2f} s: {self.why}"
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BodyTruth:
+class BodyTruth(NamedTuple):
     """How the climber really is."""
 
     pose: Floats

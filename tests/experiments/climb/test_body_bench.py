@@ -183,7 +183,7 @@ def test_coordinated_forces_balance_and_press_as_wished() -> None:
     places = {hold.number: np.array((hold.x, hold.y)) for hold in stand.board.holds}
     for i, limb in enumerate(stand.robot.limbs):
         number = stand.holds.get(limb.name, 0)
-        body.tasks[i] = LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint")
+        body.assign(i, LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint"))
     pose = stand.pose + np.array((0.01, -0.02, 0.05))
     body.pose[:], body.aim[:] = pose, stand.pose
     body.see(stand.angles(pose), np.zeros((3, 2)), float(pose[2]), 0.0)

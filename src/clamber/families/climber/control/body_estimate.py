@@ -3,12 +3,51 @@
 import math
 
 from ....compiled import inlined, kernel
-from .planar_limb import move_tips, place_tips
+from .planar_limb import HANG, STANCE, move_tips, place_tips
 
 LINE, ENCODER, SECOND_TIP = range(3)
 """Sources of the body's angle: the line between two tips, the body's own encoder, the height of the second tip (as printed in 4.4.3)."""
 UPRIGHT = 1e-3
 """Of two tips less far apart along x the second tip's height tells no angular speed [m]."""
+
+
+@inlined
+def pass_load(work):
+    """Which limbs hold, and how much each of them says about where the body is; whether a hand-over ends with this tick."""
+    held, weights, carriers, handed = work.held, work.weights, work.carriers, work.handed
+    for i in range(held.size):
+        job = work.jobs[i]
+        held[i] = job.mode in (STANCE, HANG)
+        if held[i]:
+            work.holds[i, 0] = job.place[0]
+            work.holds[i, 1] = job.place[1]
+    ends = False
+    if handed[0] < 1.0:
+        # sums of steps miss 1 by rounding: a tick more, with all of the load passed, would be no hand-over to the command
+        ends = handed[0] + 1.5 * handed[1] >= 1.0
+        handed[0] = 1.0 if ends else handed[0] + handed[1]
+    if ends:
+        for i in range(held.size):
+            if not carriers[1, i]:
+                held[i] = 0
+    part = part_passed(handed[0])
+    before = 0
+    after = 0
+    for i in range(held.size):
+        before += carriers[0, i]
+        after += carriers[1, i]
+    for i in range(held.size):
+        if handed[0] < 1.0:
+            weights[i] = (1.0 - part) / before * carriers[0, i] + part / after * carriers[1, i]
+        else:
+            weights[i] = held[i]
+    return ends
+
+
+@inlined
+def part_passed(u):
+    """Part of the load that has passed at a part of the time of a hand-over, smooth at both ends [-]."""
+    return u * u * (3.0 - 2.0 * u)
 
 
 @kernel
@@ -111,3 +150,28 @@ def _level_second_tip(dx, dy, height, before):
 def _nearest_turn(angle, before):
     """The angle, by whole turns as near to another as can be [rad]."""
     return angle + 2.0 * math.pi * math.floor((before - angle) / (2.0 * math.pi) + 0.5)
+
+
+@inlined
+def place_in_world(work, i):
+    """Where a limb's tip is in the world, how it moves, and where its hook pulls."""
+    pose, twist, leg, tip, speed = work.pose, work.twist, work.legs[i], work.tips[i], work.tip_speeds[i]
+    work.places[i, 0], work.places[i, 1] = in_world(work.settled, work.settled_tips[i, 0], work.settled_tips[i, 1])
+    work.felt_places[i, 0], work.felt_places[i, 1] = in_world(pose, tip[0], tip[1])
+    c = math.cos(pose[2])
+    s = math.sin(pose[2])
+    ax = speed[0] - twist[2] * tip[1]
+    ay = speed[1] + twist[2] * tip[0]
+    work.place_speeds[i, 0] = twist[0] + c * ax - s * ay
+    work.place_speeds[i, 1] = twist[1] + s * ax + c * ay
+    grab = pose[2] + leg.port_angle + work.q[i, 0] + work.q[i, 1] + leg.hook_angle
+    work.grabs[i, 0] = math.cos(grab)
+    work.grabs[i, 1] = math.sin(grab)
+
+
+@inlined
+def in_world(settled, x, y):
+    """A place of the body frame in the world."""
+    c = math.cos(settled[2])
+    s = math.sin(settled[2])
+    return settled[0] + c * x - s * y, settled[1] + s * x + c * y

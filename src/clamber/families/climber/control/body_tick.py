@@ -14,10 +14,9 @@ from ....control.drive import BUFFERS_TORQUES, drive_packed
 from ....types import Floats, Records
 from .backlash import follow_play, pull_torques, weight_loads, weight_moment
 from .body import WRENCH, command_contact_forces, drag_tips
-from .body_estimate import estimate_body
+from .body_estimate import estimate_body, in_world, part_passed, pass_load, place_in_world
+from .planar_limb import CONTACT_PUSH, HANG, STANCE, SWING_CARTESIAN, UNLOADED_CONTACT
 
-STANCE, UNLOADED_CONTACT, SWING_CARTESIAN, SWING_JOINT, CONTACT_PUSH, HANG = range(6)
-"""Modes of a limb."""
 CLING_DAMPING = 60.0
 """Of the tip of a limb that clings [N s/m]."""
 CLING_STIFFNESS = 1500.0
@@ -28,6 +27,10 @@ CLING_MOST = 15.0
 """Of that pull [N]."""
 MOVING = 0.05
 """A free limb's joint that is to turn faster than this rubs with all of its Coulomb friction [rad/s]."""
+BENT = math.radians(12.0)
+"""Where the soft stop of an elbow begins, before it is straight [rad]."""
+STOP = 6.0
+"""Its torque on a straight elbow, as much as a push of a hook makes there [N m]."""
 
 BODY = np.dtype(
     [
@@ -48,23 +51,6 @@ BODY = np.dtype(
     align=True,
 )
 """Gains of body and limbs."""
-LIMB_TASK = np.dtype(
-    [
-        ("mode", "i4"),
-        ("pressed", "i4"),  # of CONTACT_PUSH: whether the tip has stopped against something
-        ("place", "f8", (2,)),  # of CLING: the hold, of SWING_CARTESIAN: the aim, world frame
-        ("speed", "f8", (2,)),  # of that aim
-        ("angles", "f8", (2,)),  # of SWING_JOINT and HANG
-        ("rates", "f8", (2,)),
-        ("accelerations", "f8", (2,)),  # of SWING_JOINT
-        ("loads", "f8", (2,)),  # of HANG: torques besides
-        ("force", "f8", (2,)),  # of CONTACT_PUSH: of the tip on what it meets, world frame
-        ("tug", "f8", (2,)),  # the steady part of that, which the body leans on
-        ("damping", "f8"),
-    ],
-    align=True,
-)
-"""What one limb is to do."""
 
 
 class BodyWork(NamedTuple):
@@ -101,11 +87,19 @@ class BodyWork(NamedTuple):
     aimed: Floats
     aim_speed: Floats
     """Of the body, shape (3,)."""
+    places: Floats
+    felt_places: Floats
+    place_speeds: Floats
+    """Of the tips in the world, the play counted, by the encoders alone, and their speeds by those [m], [m/s]."""
+    grabs: Floats
+    """Where the hooks pull, world frame, unit vectors."""
     play: Floats
     sure: Floats
     """Lag of each joint's output [rad], and how sure that is [-]."""
     carriers: NDArray[np.int64]
     """1 for those that carry, before and after a hand-over, shape (2, n)."""
+    handed: Floats
+    """Of a hand-over, the time that has passed since it began, and that of a tick, each over that of all of it, shape (2,) [-]."""
     pulls: Floats
     forces: Floats
     old_pulls: Floats
@@ -134,14 +128,18 @@ class BodyWork(NamedTuple):
 
 @kernel
 def see_tick(handle, angle, angle_speed, angle_from):
-    """Estimate where the body is, by the encoders alone and with the play of the joints counted.
+    """Estimate where the body is, by the encoders alone and with the play of the joints counted; a hand-over goes on by a tick.
 
     Args:
         handle: Holds `BodyWork`.
         angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
         angle_from: As in `estimate_body`.
+
+    Returns:
+        Whether a hand-over has ended: limbs that hold, and do not carry after it, are held for no holders any more.
     """
     work = opened(handle)[0]
+    ended = pass_load(work)
     for i in range(work.legs.size):
         for k in range(2):
             work.lagged[i, k] = work.q[i, k] - work.play[i, k]
@@ -153,14 +151,9 @@ def see_tick(handle, angle, angle_speed, angle_from):
         work.legs, work.lagged, work.qd, work.weights, work.holds, angle, angle_speed, angle_from,
         work.settled_tips, work.spare_speeds, work.settled, work.spare_twist,
     )  # fmt: skip
-
-
-@inlined
-def _in_world(settled, x, y):
-    """A place of the body frame in the world."""
-    c = math.cos(settled[2])
-    s = math.sin(settled[2])
-    return settled[0] + c * x - s * y, settled[1] + s * x + c * y
+    for i in range(work.legs.size):
+        place_in_world(work, i)
+    return ended
 
 
 @inlined
@@ -180,7 +173,7 @@ def _feed(jobs, tips, settled, gains, moment, fed):
     for i in range(jobs.size):
         job = jobs[i]
         if job.mode == CONTACT_PUSH:
-            x, y = _in_world(settled, tips[i, 0], tips[i, 1])
+            x, y = in_world(settled, tips[i, 0], tips[i, 1])
             fed[0] += job.tug[0]
             fed[1] += job.tug[1]
             fed[2] += (x - settled[0]) * job.tug[1] - (y - settled[1]) * job.tug[0]
@@ -203,7 +196,7 @@ def _aim_limb(job, leg, tip, tip_speed, settled_tip, pose, twist, settled, pull,
         aim.wrench[0] = force[0]
         aim.wrench[1] = force[1]
         return
-    x, y = _in_world(settled, settled_tip[0], settled_tip[1])
+    x, y = in_world(settled, settled_tip[0], settled_tip[1])
     x, y = _into_port(leg, pose, job.place[0] - x, job.place[1] - y)
     aim.place[0] += x
     aim.place[1] += y
@@ -225,7 +218,7 @@ def _aim_limb(job, leg, tip, tip_speed, settled_tip, pose, twist, settled, pull,
 def _clinging(job, leg, q, settled_tip, pose, settled, cling):
     """What a limb that carries nothing does to its hold, world frame [N]: it pulls a little, and comes after it."""
     grab = pose[2] + leg.port_angle + q[0] + q[1] + leg.hook_angle
-    x, y = _in_world(settled, settled_tip[0], settled_tip[1])
+    x, y = in_world(settled, settled_tip[0], settled_tip[1])
     x = job.place[0] - x
     y = job.place[1] - y
     far = math.hypot(x, y)
@@ -269,17 +262,18 @@ def _command_contact_forces(work, carriers, pulls, forces):
 
 
 @inlined
-def _share(work, handed):
+def _share(work):
     """What each holding tip does for the body; while the load passes, between what it did before and will do after."""
     pulls, forces, old_pulls, old_forces = work.pulls, work.forces, work.old_pulls, work.old_forces
-    if handed < 1.0:
+    if work.handed[0] < 1.0:
+        passed = part_passed(work.handed[0])
         _command_contact_forces(work, work.carriers[0], old_pulls, old_forces)
         _command_contact_forces(work, work.carriers[1], pulls, forces)
         for i in range(work.legs.size):
             for k in range(2):
                 # cones are convex: between two loads that keep a hook on, all do
-                pulls[i, k] += (1.0 - handed) * (old_pulls[i, k] - pulls[i, k])
-                forces[i, k] += (1.0 - handed) * (old_forces[i, k] - forces[i, k])
+                pulls[i, k] += (1.0 - passed) * (old_pulls[i, k] - pulls[i, k])
+                forces[i, k] += (1.0 - passed) * (old_forces[i, k] - forces[i, k])
     else:
         _command_contact_forces(work, work.held, pulls, forces)
 
@@ -351,19 +345,18 @@ def _by_joints(work, i, torques):
 
 
 @kernel
-def command_tick(handle, handed):
+def command_tick(handle):
     """Torques of all limbs.
 
     Args:
         handle: Holds `BodyWork`.
-        handed: Part of the load that has passed from the carriers of before to those of after; 1 where it is not passing.
 
     Returns:
         The first limb whose law was given something that is not finite, -1 where there is none.
     """
     work = opened(handle)[0]
     _wish(work)
-    _share(work, handed)
+    _share(work)
     bad = -1
     for i in range(work.legs.size):
         mode = work.jobs[i].mode
@@ -375,6 +368,9 @@ def command_tick(handle, handed):
         else:
             _by_joints(work, i, work.torques[i])
         work.pressed[i] = mode == UNLOADED_CONTACT or (mode == CONTACT_PUSH and work.jobs[i].pressed != 0)
+        side = work.jobs[i].side
+        if side != 0:
+            work.torques[i, 1] += side * STOP * max(0.0, 1.0 - side * work.q[i, 1] / BENT)
     follow_play(
         work.legs, work.q, work.qd, work.held, work.forces, work.pose[2], work.pressed, work.loads, work.lag, work.play, work.sure,
     )  # fmt: skip

@@ -37,6 +37,28 @@ PLANAR_LIMB = np.dtype(
 )
 """What the body's control knows of a limb with two joints."""
 
+STANCE, UNLOADED_CONTACT, SWING_CARTESIAN, SWING_JOINT, CONTACT_PUSH, HANG = range(6)
+"""Modes of a limb."""
+LIMB_TASK = np.dtype(
+    [
+        ("mode", "i4"),
+        ("hold", "i4"),  # number of its hold, 0 without one
+        ("side", "i4"),  # on which its elbow is kept by a soft stop, +1 or -1; 0 where it may pass
+        ("pressed", "i4"),  # of CONTACT_PUSH: whether the tip has stopped against something
+        ("place", "f8", (2,)),  # of CLING: the hold, of SWING_CARTESIAN: the aim, world frame
+        ("speed", "f8", (2,)),  # of that aim
+        ("angles", "f8", (2,)),  # of SWING_JOINT and HANG
+        ("rates", "f8", (2,)),
+        ("accelerations", "f8", (2,)),  # of SWING_JOINT
+        ("loads", "f8", (2,)),  # of HANG: torques besides
+        ("force", "f8", (2,)),  # of CONTACT_PUSH: of the tip on what it meets, world frame
+        ("tug", "f8", (2,)),  # the steady part of that, which the body leans on
+        ("damping", "f8"),
+    ],
+    align=True,
+)
+"""What one limb is to do."""
+
 
 @inlined
 def place_tips(legs, q, tips):

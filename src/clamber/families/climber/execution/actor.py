@@ -194,7 +194,7 @@ class Actor:
         elbow = int(self.course.elbows[step, i])
         side = math.copysign(1.0, self.climber.holds[action.hold][0] - self.pose(step)[0])
         result = Grabbed(False, 0, 0.0, 0.0)
-        sides = [elbow, -elbow] if self.course.serves(i, step, -elbow) else [elbow]
+        sides = [elbow, -elbow] if self.course.serves(self.climber.body.legs, i, step, -elbow) else [elbow]
         for elbow in sides:
             for x, y in (*ELSEWHERE, *FARTHER):
                 if result.tries and (x, y) in FARTHER:

@@ -12,6 +12,7 @@ from ....execution.plant import HoldBreak
 from ....execution.sample_log import fields_of, note_of, report_notes, report_of, sample_log, table_of, width
 from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
+from ..control.planar_limb import STANCE
 from .climber import Climber
 
 TOPIC: Final = "climb"
@@ -152,7 +153,6 @@ class TracedClimber(Climber):
         self.step = 0
         """Number of the action that is carried out."""
         self.samples = Samples(self, every)
-        self._width = len(self.titles)
 
     @property
     def limbs(self) -> tuple[str, ...]:
@@ -175,19 +175,13 @@ class TracedClimber(Climber):
 
     def sample(self) -> Floats:
         """Of now, in the order of `titles`."""
-        body = self.body
-        true = None if self.truth is None else self.truth()
-        parts = (
-            (self.time, self.step), body.settled, body.aim, () if true is None else true.pose,
-            body.q.ravel(), () if true is None else true.q.ravel(), body.torques.ravel(),
-            [task.hold for task in body.tasks], [task.mode == "stance" for task in body.tasks],
-        )  # fmt: skip
-        row = np.empty(self._width)
-        start = 0
-        for part in parts:
-            row[start : start + len(part)] = part
-            start += len(part)
-        return row
+        body, now = self.body, np.array((self.time, self.step))
+        jobs, angles = body.work.jobs, body.q.ravel()
+        told = body.torques.ravel(), jobs["hold"], jobs["mode"] == STANCE
+        if self.truth is None:
+            return np.concatenate((now, body.settled, body.aim, angles, *told))
+        true = self.truth()
+        return np.concatenate((now, body.settled, body.aim, true.pose, angles, true.q.ravel(), *told))
 
     def trace(self, notes: Json | None = None) -> ClimbTrace:
         """All samples so far."""

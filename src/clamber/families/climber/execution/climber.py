@@ -7,12 +7,14 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....execution.plant import BodyPlant, BodySensed
 from ....execution.posture_guard import JointHold
 from ....execution.reading_monitor import ReadingMonitor
 from ....execution.run_report import FallenError as FallenError
 from ....execution.run_report import FaultError
 from ....types import Floats, Ints
+from ..control.felt_force import HANGING, LOST, PINNED, PUSHED, SLACK, STRAINED, UNHELD, see_signs
 from ..robot.robot import LimbedRobot
 from ..world.board import Board
 from .approach import Approaches, rank
@@ -25,16 +27,12 @@ from .self_watch import SelfWatch, channels_of
 from .slip import SlipWatch
 from .whole_body import WholeBody
 
-ASTRAY: Final = 0.08
-"""A body this far from its aim has fallen, or is about to [m]."""
-TURNED: Final = 0.6
-"""Likewise turned this far from it [rad]."""
-PINNED: Final = (0.05, 1.0)
-"""A body this far from its aim for so long is held there by what it cannot overcome [m], [s]."""
+PATIENCE: Final = 1.0
+"""A body that is `BEHIND` its aim for so long is held there by what it cannot overcome [s]."""
+GONE: Final = 0.1
+"""Tips are off their holds, and jaws, that seem to be for so long [s]."""
 RESTS: Final = (math.radians(1.5), 1.0)
 """A body that turns by no more than this for so long, a whole swing of one that hangs, rests [rad], [s]."""
-STRAINED: Final = 0.03
-"""Two holding tips whose distance differs that much from that of their holds are not both on them [m]."""
 
 
 class SlippedError(FallenError):
@@ -91,10 +89,9 @@ class Climber:
         self.fall, self.slip = FallWatch(self.body), SlipWatch(self.body)
         self.watched = watched
         self.monitor = ReadingMonitor(channels_of(robot), plant.period)
-        self.watch = SelfWatch(self.body, self.monitor)
+        self.watch = SelfWatch(self.body, self.monitor, self.fall.force)
         told = self.monitor.values, self.monitor.speeds, self.monitor.commands
         self._joints = [each[: 2 * self.body.n].reshape(-1, 2) for each in told]
-        self._free = self.monitor.free[: 2 * self.body.n].reshape(-1, 2)
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash, terrain=terrain)
         self.peg_radius = max(hold.radius for hold in board.holds)
@@ -106,7 +103,9 @@ class Climber:
         """1 for grippers that are to be shut, shape (limbs,); other ends don't care."""
         self.gripped: Ints = np.zeros(n, np.int32)
         """1 for grippers that are closed about something, as last sensed, shape (limbs,)."""
-        self._gripping = [i for i, limb in enumerate(robot.limbs) if limb.end.kind == "gripper"]
+        jawed = np.array([limb.end.kind == "gripper" for limb in robot.limbs], np.int32)
+        free = self.monitor.free[: 2 * n].reshape(-1, 2)
+        self._see_signs = ready(see_signs, Handle(self.body.work, self.fall.force, jawed, self.gripped, free))
         self.ticks = 0
         self.latest = -1
         """Index of the limb that took its hold last."""
@@ -140,7 +139,7 @@ class Climber:
                 task = LimbTask("unloaded_contact" if limb.name == idle else "stance", number, place.copy())
             task.angles = q[i].copy()
             self.grips[i] = number > 0
-            self.body.tasks[i] = task
+            self.body.assign(i, task)
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if task.mode == "stance"])
         self.plant.reset(pose, q)
         self.body.pose[:], self.body.settled[:], self.body.aim[:] = pose, pose, pose
@@ -166,13 +165,11 @@ class Climber:
         if self.balance is not None:
             self.balance()
         self.gripped[:] = sensed.gripped
-        falls, lost = self.fall.see(), self.slip.see(self.fall.forces)
+        falls, lost, signs = self.fall.see(), self.slip.see(self.fall.forces), self._see_signs()
         self.plant.actuate(self.body.command(), self.grips)
-        self._free.T[:] = [task.free for task in self.body.tasks]
         self.plant.step()
         self.ticks += 1
-        holding = self.holding()
-        if not holding:
+        if signs & UNHELD:
             raise FallenError("no limb holds the body")
         if falls:
             raise FallenError(f"nothing carries the robot: all tips together feel {self.fall.carried:.0f} N")
@@ -181,33 +178,47 @@ class Climber:
             raise SlippedError(
                 lost, f"the hook of '{name}' has come off hold {hold}: it moved {1e3 * self.slip.moved:.0f} mm"
             )
-        # A hook that comes off slowly is not seen to move, but two tips can then not both be on their holds
-        strain = self.body.strain(holding[0], holding[-1])
-        self._strained = self._strained + 1 if strain > STRAINED else 0
-        if self._strained * self.plant.period > 0.1:
-            raise FallenError(
-                f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
-            )
-        if self.body.tasks[holding[0]].mode == "hang":
-            self.body.aim[:] = self.body.pose  # it swings where it will
-        slack = [i for i in self._gripping if self.body.tasks[i].mode == "stance" and not self.gripped[i]]
-        self._slipped = self._slipped + 1 if slack else 0
-        if self._slipped * self.plant.period > 0.1:
-            raise FallenError(f"the gripper of '{self.robot.limbs[slack[0]].name}' has slipped off its hold")
-        (*place, angle), (*aim, aimed) = self.body.pose.tolist(), self.body.aim.tolist()
-        off, turned = math.dist(aim, place), abs(angle - aimed)
-        self._pinned = self._pinned + 1 if off > PINNED[0] else 0
-        if self._pinned * self.plant.period > PINNED[1]:
-            raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
-        if off > ASTRAY or turned > TURNED:
-            raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
+        if signs & ~PUSHED:
+            self._heed(signs)
+        else:
+            self._strained = self._slipped = self._pinned = 0
         if self.watched:
-            beside = self.watch.see(self.fall.forces, self.monitor.values.item(-1))
+            beside = self.watch.see(self.monitor.values.item(-1), pushed=bool(signs & PUSHED))
             if beside is not None:
                 name, hold = self.robot.limbs[beside].name, self.body.tasks[beside].hold
                 raise SlippedError(
                     beside, f"the hook of '{name}' is beside hold {hold}, and dragged along", surely=True
                 )
+
+    def _heed(self, signs: int) -> None:
+        """Count for how long there have been signs that end the climb.
+
+        Raises:
+            FallenError: If that is too long.
+        """
+        body, period = self.body, self.plant.period
+        # A hook that comes off slowly is not seen to move, but two tips can then not both be on their holds
+        self._strained = self._strained + 1 if signs & STRAINED else 0
+        if self._strained * period > GONE:
+            strain = body.strain(self.holding()[0], self.holding()[-1])
+            raise FallenError(
+                f"a hook has come off: two holding tips are {1e3 * strain:.0f} mm off their holds' distance"
+            )
+        if signs & HANGING:
+            body.aim[:] = body.pose  # it swings where it will
+        self._slipped = self._slipped + 1 if signs & SLACK else 0
+        if self._slipped * period > GONE:
+            ends = zip(self.robot.limbs, body.tasks, self.gripped, strict=True)
+            slack = [
+                limb for limb, task, grips in ends if limb.end.kind == "gripper" and task.mode == "stance" and not grips
+            ]
+            raise FallenError(f"the gripper of '{slack[0].name}' has slipped off its hold")
+        off, turned = math.dist(body.aim[:2], body.pose[:2]), abs(float(body.pose[2] - body.aim[2]))
+        self._pinned = self._pinned + 1 if signs & PINNED else 0
+        if self._pinned * period > PATIENCE:
+            raise FallenError(f"the body stays {1e3 * off:.0f} mm off its aim")
+        if signs & LOST:
+            raise FallenError(f"the body is {1e3 * off:.0f} mm off its aim and turned by {np.degrees(turned):.0f} deg")
 
     def _believe(self, sensed: BodySensed) -> None:
         """Let the body see what is to be believed of a tick's readings.
@@ -251,7 +262,7 @@ class Climber:
     @property
     def hangs(self) -> bool:
         """Whether one limb holds the body, which swings as it will."""
-        return any(task.mode == "hang" for task in self.body.tasks)
+        return "hang" in [task.mode for task in self.body.tasks]
 
     def wait(self, seconds: float) -> None:
         """Let time pass [s]."""

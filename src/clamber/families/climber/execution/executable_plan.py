@@ -13,7 +13,6 @@ from ....planning.problem.problems import PlannedAction, plan_family
 from ....shown_units import units_of
 from ....tasks.library import change_task, name_to_type
 from ....types import Floats, Ints, Records
-from ..control.limb_chain import legs_of
 from ..planning.task import LimbedTask
 from ..statics.elbows import open_branches
 from .contact_capacity import load_capacity
@@ -93,12 +92,12 @@ class ExecutablePlan:
             end += 1
         return range(step, end)
 
-    def serves(self, i: int, step: int, elbow: int) -> bool:
-        """Whether a limb that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves.
+    def serves(self, legs: Records, i: int, step: int, elbow: int) -> bool:
+        """Whether a limb of the robot's `legs` that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves.
 
         By the plan's checks, and by what hooks and motors bear: a hook that is taken from the wrong side may pull up where it is to carry.
         """
-        n, bit, legs = len(self.task.robot.limbs), 1 if elbow > 0 else 2, legs_of(self.task.robot)
+        n, bit = len(self.task.robot.limbs), 1 if elbow > 0 else 2
         return all(
             open_branches(self.stances[k]["elbows"], n, i) & bit and self._bears(legs, i, k, elbow)
             for k in self.stays(i, step)

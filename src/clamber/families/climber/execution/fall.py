@@ -5,8 +5,8 @@ from typing import Final
 
 import numpy as np
 
-from ....compiled import Handle
-from ..control.felt_force import SLOW, feel_forces
+from ....compiled import Handle, ready
+from ..control.felt_force import LOAD, SLOW, see_load
 from .whole_body import WholeBody
 
 BORNE: Final = 0.45
@@ -37,41 +37,40 @@ class FallWatch:
 
     def __init__(self, body: WholeBody) -> None:
         self._body = body
-        self._least = BORNE * body.robot.weight
-        self._rate = min(1.0, body.period / SMOOTHED)
         self._before, self._felt = np.zeros((body.n, 2)), np.zeros((body.n, 2))
         self.forces = np.zeros((body.n, 2))
         """Of the tips on what they touch, world frame, shape (limbs, 2) [N]; infinite where they cannot be told."""
-        seen = body.legs, body.held, body.q, body.qd, self._before, body.torques
-        self._handle = Handle(*seen, self._felt, self.forces)
-        self.carried = 0.0
-        """Sum of their sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
-        self.loose = 0.0
+        self.force = np.zeros(2)
+        """Their sum [N]."""
+        self._load = np.zeros(1, LOAD)
+        self._load["period"], self._load["rate"] = body.period, min(1.0, body.period / SMOOTHED)
+        self._load["least"] = BORNE * body.robot.weight
+        self._see = ready(see_load, Handle(body.work, self._before, self._felt, self.forces, self.force, self._load))
+
+    @property
+    def carried(self) -> float:
+        """Sum of the forces' sizes [N]; infinite where a limb that holds cannot tell; others that cannot count as none."""
+        return float(self._load["carried"][0])
+
+    @property
+    def loose(self) -> float:
         """How long the tips have been carrying too little [s]."""
-        self._fastest = 0.0
-        """That a joint of a limb that holds has turned meanwhile [rad/s]."""
+        return float(self._load["loose"][0])
 
     def reset(self) -> None:
         """Begin anew, as if all were well."""
         self._before[:] = self._felt[:] = 0.0
-        self._fastest = 0.0
-        self.loose = -LOOSE  # what the tips feel has to settle first
+        self._load["fastest"] = 0.0
+        self._load["loose"] = -LOOSE  # what the tips feel has to settle first
 
     def see(self) -> bool:
         """Take in the tick whose measurements the body has just seen; whether nothing carries the robot."""
-        body = self._body
-        self.carried = feel_forces(self._handle, body.pose.item(2), body.period, self._rate)
-        little = self.carried < self._least
-        # a torque that jumps for a tick looks like a force, so one tick that says otherwise does not start the time anew
-        self.loose = self.loose + body.period if little else max(self.loose - 2.0 * body.period, 0.0)
-        on = zip(body.qd.tolist(), body.held.tolist(), strict=True)
-        rate = max((abs(speed) for speeds, held in on if held for speed in speeds), default=0.0)
-        self._fastest = max(self._fastest, rate) if self.loose > 0.0 else 0.0
-        if self.loose <= LOOSE:
+        if self._see() <= LOOSE:
             return False
+        body, load = self._body, self._load[0]
         hangs = any(task.mode == "hang" for task in body.tasks)
-        drops = hangs and self.carried < WEIGHTLESS[0] * body.robot.weight and self._fastest > WEIGHTLESS[1]
-        return drops or (rate > MOVES and self.carried + self._hidden() < self._least)
+        drops = hangs and load["carried"] < WEIGHTLESS[0] * body.robot.weight and load["fastest"] > WEIGHTLESS[1]
+        return bool(drops or (load["turning"] > MOVES and load["carried"] + self._hidden() < load["least"]))
 
     def _hidden(self) -> float:
         """What limbs on holds may bear unfelt by the friction of joints at rest [N]; infinite where one is stretched or folded."""

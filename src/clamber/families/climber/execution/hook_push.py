@@ -1,11 +1,13 @@
 """A hook pushed onto a hold until it stops, then tugged (Bevly 1997, Fig. 4.14): stopped is not seated."""
 
+import math
 from typing import Final
 
 import numpy as np
 
 from ....types import Floats
 from .climber import Climber
+from .motions import ramp
 
 PUSH: Final = 10.0
 """Gentle pull along the grab direction until the hook stops [N]."""
@@ -78,56 +80,62 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     body, task, period = climber.body, climber.body.tasks[i], climber.plant.period
     task.mode, task.pressed, task.tug = "contact_push", False, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
-    seated, marks, anew = False, np.full(2, -np.inf), 0
-    rested, apart = body.pose[:2].copy(), _apart(climber)
+    seated, marks, anew = False, [-math.inf, -math.inf], 0
+    rested, apart = body.pose.tolist(), _apart(climber)
     hangs = climber.hangs
     part, coaxing, coaxed = HANGING if hangs else 1.0, WIDE_DITHER, 0.0
+    (gx, gy), (px, py) = g.tolist(), place.tolist()
     for _ in range(round(PATIENCE / period)):
-        along = body.grab_direction(i)
-        across = np.array((-along[1], along[0]))
+        ax, ay = body.grab_direction(i).tolist()
+        (bx, by, _), (x, y) = body.pose.tolist(), body.tip(i).tolist()
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         # what hangs swings aside with a pull, which takes nothing off its own hold; risen, it has gone far enough
-        lifted = float(body.pose[1] - rested[1]) if hangs else float((rested - body.pose[:2]) @ g)
+        lifted = by - rested[1] if hangs else (rested[0] - bx) * gx + (rested[1] - by) * gy
         if stage == "push":
             # believed to press before it does: in free air the tip is then farther in than believed, never less far
-            free = float((place - body.tip(i)) @ g) - room
-            size += float(np.interp(free, (0.0, FREE), (0.0, HASTE)))
+            free = (px - x) * gx + (py - y) * gy - room
+            size += ramp(free, (0.0, FREE), (0.0, HASTE))
         # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
-        slid = float(np.linalg.norm(_apart(climber) - apart, axis=1).min())
-        faded = min(np.interp(lifted, LIFT, (1.0, 1 / 3)), np.interp(slid, SLIDING, (1.0, 1 / 3)))
+        slid = min(
+            math.sqrt((nx - wx) * (nx - wx) + (ny - wy) * (ny - wy))
+            for (nx, ny), (wx, wy) in zip(_apart(climber), apart, strict=True)
+        )
+        faded = min(ramp(lifted, LIFT, (1.0, 1 / 3)), ramp(slid, SLIDING, (1.0, 1 / 3)))
         size *= part * faded
         strength, rate = (coaxing, WIDE_RATE) if stage == "coax" else (DITHER, DITHER_RATE)
-        phase += 2 * np.pi * rate * period
-        side = part * strength * np.sin(phase)
+        phase += 2 * math.pi * rate * period
+        side = part * strength * math.sin(phase)
         if stage == "push":
-            aside = float(across @ (place - body.tip(i)))
+            aside = -ay * (px - x) + ax * (py - y)
             side += min(max(STEERING[0] * aside, -STEERING[1]), STEERING[1]) if free > 0.0 else CENTRING * aside
             task.pressed = task.pressed or free <= 0.0
         else:
             tugged += period
             part = min(1.0, part + period / YIELDING) if hangs else part
         # what does not go into motion is borne by what the hook meets, and the other limbs carry that much less
-        borne += (
-            period / BORNE_TIME * (min(max(size - task.damping * float(body.tip_speed(i) @ along), 0.0), size) - borne)
-        )
-        task.tug = borne * along
-        task.force = size * along + side * across
+        vx, vy = body.tip_speed(i).tolist()
+        borne += period / BORNE_TIME * (min(max(size - task.damping * (vx * ax + vy * ay), 0.0), size) - borne)
+        task.tug = np.array((borne * ax, borne * ay))
+        task.force = np.array((size * ax - side * ay, size * ay + side * ax))
         climber.tick()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
-        reached = np.array((body.felt_tip(i) @ g, body.tip(i) @ g))
-        advanced = reached > marks + (ADVANCE if stage == "push" else CREEP)
-        marks = np.where(advanced, reached, marks)
-        still = 0.0 if advanced.any() else still + period
-        ahead = float((place - body.tip(i)) @ g)
+        (fx, fy), (x, y) = body.felt_tip(i).tolist(), body.tip(i).tolist()
+        least = ADVANCE if stage == "push" else CREEP
+        advanced = False
+        for k, reached in enumerate((fx * gx + fy * gy, x * gx + y * gy)):
+            if reached > marks[k] + least:
+                marks[k], advanced = reached, True
+        still = 0.0 if advanced else still + period
+        ahead = (px - x) * gx + (py - y) * gy
         # the belief about the play may be out for a while, the encoders know nothing of it: beyond by both is beyond
-        if max(ahead, float((place - body.felt_tip(i)) @ g)) < -room:
+        if max(ahead, (px - fx) * gx + (py - fy) * gy) < -room:
             break
         if stage == "push" and still > STOPPED:
             stage, still = "coax" if ahead > SHORT else "tug", 0.0
         elif stage == "coax":
             coaxed += period
             far = ahead > FAR_SHORT
-            coaxing = float(np.interp(coaxed, (STUCK / 2, COAXED), (WIDE_DITHER, STRONGEST if far else WIDE_DITHER)))
+            coaxing = ramp(coaxed, (STUCK / 2, COAXED), (WIDE_DITHER, STRONGEST if far else WIDE_DITHER))
             if coaxed > COAXED or (still > STUCK and not far) or ahead < 0.5 * SHORT:
                 stage, still = "tug", 0.0
         elif stage == "tug" and tugged > TUG_RISE and still > STILL:
@@ -135,15 +143,16 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
                 seated = True
                 break
             # a weak push lets a hook rest on its flare: from where the body is now, with all of it
-            rested, apart, still, anew = body.pose[:2].copy(), _apart(climber), 0.0, anew + 1
+            rested, apart, still, anew = body.pose.tolist(), _apart(climber), 0.0, anew + 1
     if hangs and seated:
-        task.force = size * along
+        task.force = np.array((size * ax, size * ay))
         return True
     task.pressed, task.tug = False, np.zeros(2)
     return seated
 
 
-def _apart(climber: Climber) -> Floats:
+def _apart(climber: Climber) -> list[list[float]]:
     """One holding tip less another by the encoders alone, and with the play counted, world frame, shape (2, 2) [m]."""
-    body, i, j = climber.body, climber.holding()[0], climber.holding()[-1]
-    return np.array((body.felt_tip(i) - body.felt_tip(j), body.tip(i) - body.tip(j)))
+    body, holding = climber.body, climber.holding()
+    i, j = holding[0], holding[-1]
+    return [(body.felt_tip(i) - body.felt_tip(j)).tolist(), (body.tip(i) - body.tip(j)).tolist()]

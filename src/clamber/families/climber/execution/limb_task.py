@@ -1,12 +1,13 @@
 """What one limb of a climber is doing, and with what aim."""
 
 from dataclasses import dataclass, field
-from typing import Final, Literal, TypeAlias
+from typing import Any, ClassVar, Final, Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ....types import Floats
-from ..control import body_tick as at
+from ....types import Floats, Records
+from ..control import planar_limb as at
 
 LimbMode: TypeAlias = Literal["stance", "hang", "unloaded_contact", "swing_cartesian", "swing_joint", "contact_push"]
 """A limb holds the body, holds it alone while it swings as it will, clings to its hold without carrying, brings its tip or its joints
@@ -17,9 +18,9 @@ LIMB_MODES: Final = {
 }  # fmt: skip
 
 
-@dataclass(slots=True)
+@dataclass
 class LimbTask:
-    """What one limb is doing now."""
+    """What one limb is doing now. Once it is attached, a compiled tick reads what is assigned to it; arrays are assigned whole."""
 
     mode: LimbMode
     hold: int = 0
@@ -46,6 +47,22 @@ class LimbTask:
     """Where its elbow is kept by a soft stop before it is straight, +1 or -1; 0: it may pass."""
     pressed: bool = False
     """Of "contact_push": whether the tip has stopped against something, which then loads the joints."""
+
+    _read: ClassVar[dict[str, NDArray[Any]]] = {}
+    """Field -> where a compiled tick reads it."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Assign, and let the compiled tick read it."""
+        object.__setattr__(self, name, value)
+        if name in self._read:
+            self._read[name][:] = LIMB_MODES[value] if name == "mode" else value
+
+    def attach(self, records: Records, i: int) -> None:
+        """Let record `i` of `LIMB_TASK` be what this is, from now on."""
+        names = records.dtype.names or ()
+        object.__setattr__(self, "_read", {name: records[name][i : i + 1] for name in names})
+        for name in names:
+            setattr(self, name, getattr(self, name))
 
     def give_way(self) -> None:
         """Let the limb go where what it meets pushes it."""

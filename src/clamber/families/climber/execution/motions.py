@@ -1,6 +1,7 @@
 """Motions that all actions are made of: the body on smooth ways, free limbs out of its way, tips and joints of limbs."""
 
 import math
+import operator
 from collections.abc import Callable
 from typing import Final
 
@@ -77,8 +78,8 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     # hooks that hold each other sideways let a body sag, and press hard, before it moves
     sags, presses = math.dist(body.aim[:2], body.pose[:2]), _presses(climber)
     while gone < length + rise:
-        behind = math.dist(body.aim[:2], body.pose[:2])
-        wished = float(np.interp(behind - sags, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
+        behind = math.dist(body.aim.tolist()[:2], body.pose.tolist()[:2])
+        wished = ramp(behind - sags, BEHIND, (1.0, 0.0)) if drawn is None and waited < WAITING else 1.0
         pace = min(wished, pace + period / REGAINING)
         waited += (1.0 - pace) * period
         stuck = behind > HELD_BACK[0] or (pace < STANDS[0] and _is_jammed(climber, presses))
@@ -135,6 +136,13 @@ def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
         body.aim[:] = start - (1.0 - k / ticks) * change
         body.aim_speed[:] = change / (ticks * climber.plant.period)
         climber.tick()
+
+
+def ramp(x: float, across: tuple[float, float], values: tuple[float, float]) -> float:
+    """The first of two values before a stretch, the second after it, and between both on it."""
+    if across[0] < x < across[1]:
+        return (values[1] - values[0]) / (across[1] - across[0]) * (x - across[0]) + values[0]
+    return values[0] if x <= across[0] else values[1]
 
 
 def eased(t: float, length: float, rise: float) -> tuple[float, float]:
@@ -212,12 +220,11 @@ def move_tip(climber: Climber, i: int, place: Floats, seconds: float) -> bool:
     task, period = climber.body.tasks[i], climber.plant.period
     task.mode = "swing_cartesian"
     start = climber.body.tip(i)
-    count, rise = max(1, round(seconds / period)), seconds / 3
+    count, rise, way = max(1, round(seconds / period)), seconds / 3, place - start
     watch = PushedBody(climber)
     for k in range(1, count + 1):
         done, rate = eased(k / count * seconds, seconds - rise, rise)
-        task.place = start + done / (seconds - rise) * (place - start)
-        task.speed = rate / (seconds - rise) * (place - start)
+        task.place, task.speed = start + done / (seconds - rise) * way, rate / (seconds - rise) * way
         climber.tick()
         if watch.gives_way(i):
             return False
@@ -254,12 +261,13 @@ def follow(
     paces = _round_corners(surges, window)
     task.mode = "swing_joint"
     body = climber.body
-    q, waited, gone, last = body.q[i], 0.0, 0.0, len(smooth) - 1
+    q, play, waited, gone, last = body.q[i], body.play[i], 0.0, 0.0, len(smooth) - 1
+    aims, steps = [0.0, 0.0], np.diff(smooth, axis=0)
     stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=most >= JOINT_SPEED)
     while gone < last:
         # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
-        lag = float(np.abs(task.angles - q).max()) if gone else 0.0
-        wished = float(np.interp(lag, lags, (1.0, 0.0))) if waited < WAITING else 1.0
+        lag = max(map(abs, map(operator.sub, aims, q.tolist()))) if gone else 0.0
+        wished = ramp(lag, lags, (1.0, 0.0)) if waited < WAITING else 1.0
         speed = min(wished, speed + period / REGAINING)
         waited += (1.0 - speed) * period
         pace = speed * paces.item(int(gone))
@@ -270,8 +278,9 @@ def follow(
         k, part = divmod(gone, 1.0)
         at = int(k)
         # the way is that of the joints' outputs
-        task.angles = smooth[at] + part * (smooth[at + 1] - smooth[at]) + body.play[i]
+        task.angles = smooth[at] + part * steps[at] + play
         task.rates, task.accelerations = pace * rates[at], pace**2 * surges[at]
+        aims = task.angles.tolist()
         gone += pace
         climber.tick()
         if watch.gives_way(i):

@@ -7,16 +7,15 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....execution.reading_monitor import Channel, ReadingMonitor
 from ....types import Floats
 from ....units import DEGREE
+from ..control.felt_force import UNBALANCED, see_pairs
 from ..robot.robot import LimbedRobot
 from .body_schemes import turned
 from .whole_body import WholeBody
 
-UNBALANCED: Final = 1.5
-"""Sum of the forces of all tips and the weight, over the weight, beyond which something else pushes, or a motor does not give what it is
-told [-]. Climbs without a fault come to 0.7 while joints cross their play, and to 3 where a link is caught at a peg."""
 UNSURE: Final = 0.1
 """Part of a joint's torque limit by which its torque is not known while its limb moves freely: accelerations come a tick late and smoothed
 [-]. Of a limb that is nearly straight that is a force along it of more than the weight."""
@@ -63,10 +62,11 @@ class SelfWatch:
     Args:
         body: What knows the limbs and their tasks.
         monitor: Whose channels they are; it ends the run.
+        force: Sum of what the tips feel at a tick, world frame, shape (2,) [N]; not finite where they cannot tell.
     """
 
-    def __init__(self, body: WholeBody, monitor: ReadingMonitor) -> None:
-        self._body, self._monitor = body, monitor
+    def __init__(self, body: WholeBody, monitor: ReadingMonitor, force: Floats) -> None:
+        self._body, self._monitor, self._force = body, monitor, force
         self._most = UNBALANCED * body.robot.weight
         self._patience, self._every = round(FOR / body.period), max(1, round(LOOKED_AT / body.period))
         longest = max(limb.length for limb in body.robot.limbs)
@@ -74,7 +74,19 @@ class SelfWatch:
         joints = monitor.channels[: 2 * body.n]
         self._limits = np.array([joint.limit for joint in joints])
         self._no_load = np.array([joint.fastest for joint in joints])
-        self._pairs = list(combinations(range(body.n), 2))
+        self._pairs = np.array(list(combinations(range(body.n), 2)), np.int64).reshape(-1, 2)
+        n = len(self._pairs)
+        self._came_to, self._lined = np.zeros((n, 2), np.int64), np.zeros((n, 2), np.int64)
+        """Holds of a pair on which its tips, and its line, are known; -1 where they are not."""
+        self._came, self._lay, self._between = np.zeros((n, 4)), np.zeros((n, 4, 4)), np.zeros((n, 4))
+        """How the tips of a pair lay to each other, by the encoders and with the play counted: when both had come to these holds, when the
+        reading of each of its joints changed last since then, and now [m]."""
+        self._turned = np.zeros(1)
+        """Least that the body has turned by the line of a pair that holds it since its encoder changed last [rad]."""
+        pairs = self._pairs, self._came_to, self._lined, np.zeros((n, 2)), self._came, self._lay, self._between
+        self._see_pairs = ready(
+            see_pairs, Handle(body.work, *pairs, self._turned, monitor.unchanged, self._every), 0.0, True
+        )
         self.reset()
 
     def reset(self) -> None:
@@ -85,45 +97,46 @@ class SelfWatch:
         self._wandered = 0
         self._dragged: set[int] = set()
         """Limbs told to have their hooks beside their holds."""
-        self._came: dict[tuple[int, int], tuple[tuple[int, int], Floats]] = {}
-        """Pair -> its holds, and how its tips lay to each other when both had come there, by the encoders and with the play counted [m]."""
-        self._lay: dict[tuple[int, int], Floats] = {}
-        """Pair -> how its tips lay, likewise, when the reading of each of its joints changed last since then, shape (4, 4) [m]."""
-        self._turning, self._angle = 0, math.nan
-        self._lines: dict[tuple[int, int], tuple[tuple[int, int], tuple[float, float]]] = {}
-        """Pair -> its holds, and how its line lay, likewise, when the body's encoder changed last or the pair began to hold [rad]."""
+        self._came_to[:] = self._lined[:] = -1
+        self._turning, self._angle, self._fresh, self._explains = 0, math.nan, True, False
 
-    def see(self, forces: Floats, angle: float) -> int | None:
+    def see(self, angle: float, *, pushed: bool) -> int | None:
         """Take in a tick; index of the limb whose hook is beside its hold, and dragged along.
 
         Args:
-            forces: What the tips feel, world frame, shape (limbs, 2) [N]; infinite where they cannot tell.
             angle: Of the body by its encoder [rad].
+            pushed: Whether the tips are `UNBALANCED`.
 
         Raises:
             FaultError: If a motor or a sensor has failed.
         """
-        x = y = 0.0
-        for fx, fy in forces.tolist():
-            x += fx
-            y += fy
-        off = math.hypot(x, y + self._body.robot.weight)
-        sure = self._monitor.clear > self._patience  # accelerations that were bridged are no forces
-        if sure and self._most < off < math.inf and self._most < off - self._unsure() and self._gives_what_is_asked():
-            left = self._without_one(np.array((x, y + self._body.robot.weight)))
-            self._explained = np.where(left < EXPLAINED * self._body.robot.weight, self._explained + 1, 0)
-            if self._explained.max() > self._patience:
-                self._tell_motor(int(np.where(self._explained > self._patience, left, math.inf).argmin()), off)
-        else:
-            self._explained[:] = 0
+        if pushed:
+            self._look_at_motors()
+        elif self._explains:
+            self._explained[:], self._explains = 0, False
         if angle != self._angle:
-            self._angle = angle
-            self._lines.clear()
+            self._angle, self._fresh = angle, True
         self._ticks += 1
-        if self._ticks % self._every == 0:
-            self._look_at_body()
-            return self._look_at_tips(angle)
-        return None
+        if self._ticks % self._every:
+            return None
+        self._see_pairs(angle, self._fresh)
+        self._fresh = False
+        self._look_at_body()
+        return self._look_at_tips()
+
+    def _look_at_motors(self) -> None:
+        """Whether one motor explains that the tips are `UNBALANCED`, for long."""
+        weight = self._body.robot.weight
+        rest = self._force + np.array((0.0, weight))
+        off = math.hypot(*rest.tolist())
+        sure = self._monitor.clear > self._patience  # accelerations that were bridged are no forces
+        if not (sure and off - self._unsure() > self._most and self._gives_what_is_asked()):
+            self._explained[:] = 0
+            return
+        left = self._without_one(rest)
+        self._explained, self._explains = np.where(left < EXPLAINED * weight, self._explained + 1, 0), True
+        if self._explained.max() > self._patience:
+            self._tell_motor(int(np.where(self._explained > self._patience, left, math.inf).argmin()), off)
 
     def _unsure(self) -> float:
         """How far the forces of all tips together may be off by torques of limbs that move freely [N]; infinite where one is straight."""
@@ -169,52 +182,26 @@ class SelfWatch:
 
     def _look_at_body(self) -> None:
         """Whether every two limbs that hold the body say that it turns; a hook that slides moves against all others alone."""
-        body, turned = self._body, []
-        for pair in self._pairs:
-            one, other = (body.tasks[i] for i in pair)
-            if one.mode != "stance" or other.mode != "stance":
-                self._lines.pop(pair, None)
-                continue
-            lines = _direction(body.tips, pair), _direction(body.settled_tips, pair)
-            known = self._lines.get(pair)
-            if known is None or known[0] != (one.hold, other.hold):
-                known = self._lines[pair] = (one.hold, other.hold), lines
-            turned.append(
-                min(abs(math.remainder(now - was, math.tau)) for now, was in zip(lines, known[1], strict=True))
-            )
-        self._turning = self._turning + 1 if min(turned, default=0.0) > TURNED else 0
+        turned = float(self._turned[0])
+        self._turning = self._turning + 1 if turned > TURNED else 0
         if self._turning * LOOKED_AT > TURNING:
-            sensor = 2 * body.n
+            sensor = 2 * self._body.n
             self._monitor.bad.add(sensor)
-            told = f"by its holding limbs the body has turned by {min(turned) / DEGREE:.1f} deg"
+            told = f"by its holding limbs the body has turned by {turned / DEGREE:.1f} deg"
             why = f"sensor stuck: its reading has not changed by a count, and {told}"
             self._monitor.fail("no answer", self._monitor.channels[sensor].name, why)
 
-    def _look_at_tips(self, angle: float) -> int | None:
+    def _look_at_tips(self) -> int | None:
         """Whether tips have moved against each other that are on their holds; the one that clings beside its hold."""
-        body, wandered = self._body, []
-        for pair in self._pairs:
-            a, b = pair
-            one, other = body.tasks[a], body.tasks[b]
-            if one.mode not in ("stance", "unloaded_contact") or other.mode not in ("stance", "unloaded_contact"):
-                self._came.pop(pair, None)
-                continue
-            shift = angle - float(body.pose[2])
-            between = np.concatenate(
-                (
-                    turned(body.tips[a] - body.tips[b], angle),
-                    turned(body.settled_tips[a] - body.settled_tips[b], float(body.settled[2]) + shift),
-                )
-            )
-            known = self._came.get(pair)
-            if known is None or known[0] != (one.hold, other.hold):
-                self._came[pair], self._lay[pair] = ((one.hold, other.hold), between), np.tile(between, (4, 1))
-                continue
-            self._look_at_silent(pair, between)
-            moved = between - known[1]
-            size = _size(moved)
-            if size > self._wandered_off:
-                wandered.append((pair, moved[:2], size))
+        if self._monitor.silent.any():
+            self._look_at_silent()
+        wandered = []
+        for pair, came_to, between, came in zip(
+            self._pairs.tolist(), self._came_to.tolist(), self._between.tolist(), self._came.tolist(), strict=True
+        ):
+            moved = [now - then for now, then in zip(between, came, strict=True)]
+            if came_to[0] >= 0 and _size(moved) > self._wandered_off:
+                wandered.append((pair, np.array(moved[:2]), _size(moved)))
         self._wandered = self._wandered + 1 if wandered else 0
         if self._wandered * LOOKED_AT > DRAGGED:
             beside = self._dragged_limb([pair for pair, _, _ in wandered])
@@ -226,22 +213,20 @@ class SelfWatch:
             self._tell_sensor(*wandered[0])
         return None
 
-    def _look_at_silent(self, pair: tuple[int, int], between: Floats) -> None:
+    def _look_at_silent(self) -> None:
         """Whether the tips of a pair have moved against each other while a joint of theirs answered no torque."""
-        lay = self._lay[pair]
-        for row, c in enumerate(2 * i + k for i in pair for k in range(2)):
-            if self._monitor.unchanged[c] < self._every:
-                lay[row] = between
-            elif self._monitor.silent[c] and _size(between - lay[row]) > self._silent:
-                self._monitor.tell_silent(c)
+        for pair, came_to, between, lay in zip(self._pairs, self._came_to, self._between, self._lay, strict=True):
+            for row, c in enumerate(2 * i + k for i in pair for k in range(2)):
+                if came_to[0] >= 0 and self._monitor.silent[c] and _size(between - lay[row]) > self._silent:
+                    self._monitor.tell_silent(int(c))
 
-    def _dragged_limb(self, pairs: Sequence[tuple[int, int]]) -> int | None:
+    def _dragged_limb(self, pairs: Sequence[list[int]]) -> int | None:
         """The limb that carries nothing and has moved against all that hold, which have not moved against each other."""
         tasks = self._body.tasks
         holders = [i for i, task in enumerate(tasks) if task.mode == "stance"]
         for i, task in enumerate(tasks):
             alone = all(i in pair for pair in pairs)
-            from_all = all((min(i, k), max(i, k)) in pairs for k in holders)
+            from_all = all([min(i, k), max(i, k)] in pairs for k in holders)
             if task.mode == "unloaded_contact" and len(holders) > 1 and alone and from_all and i not in self._dragged:
                 return i
         return None
@@ -259,12 +244,6 @@ class SelfWatch:
         self._monitor.fail("drift", self._monitor.channels[sensor].name, why)
 
 
-def _size(moved: Floats) -> float:
+def _size(moved: Sequence[float] | Floats) -> float:
     """How far a tip has moved at least, by the encoders or with the play counted, shape (4,) [m]."""
     return min(math.hypot(*moved[:2]), math.hypot(*moved[2:]))
-
-
-def _direction(tips: Floats, pair: tuple[int, int]) -> float:
-    """Of the line between two tips, body frame [rad]."""
-    x, y = (tips[pair[0]] - tips[pair[1]]).tolist()
-    return math.atan2(y, x)

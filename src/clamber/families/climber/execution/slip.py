@@ -1,13 +1,15 @@
 """A hook that has come off, told before the body is far: two tips that are on their holds do not move against each other."""
 
-import cmath
 import math
+from collections.abc import Sequence
 from itertools import combinations
 from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....types import Floats
+from ..control.felt_force import see_slips
 from .whole_body import WholeBody
 
 BEYOND: Final = 0.006
@@ -40,16 +42,18 @@ class SlipWatch:
     def __init__(self, body: WholeBody) -> None:
         self._body = body
         hooked = [i for i, limb in enumerate(body.robot.limbs) if limb.end.kind != "gripper"]
-        self._pairs = list(combinations(hooked, 2))
-        self._rate = min(1.0, body.period / FORGOTTEN)
-        self._before: dict[tuple[int, int], tuple[int, int, complex, complex]] = {}
-        """Pair -> its holds, and the first tip less the second as it lately was, by encoders and with the play counted, world frame [m]."""
+        self._pairs = np.array(list(combinations(hooked, 2)), np.int64).reshape(-1, 2)
+        n = len(self._pairs)
+        self._holds, self._changes, self._beyond = np.full((n, 2), -1), np.zeros((n, 2)), np.zeros((n, 2))
+        rate = min(1.0, body.period / FORGOTTEN)
+        seen = Handle(body.work, self._pairs, self._holds, np.zeros((n, 4)), self._changes, self._beyond, rate)
+        self._see = ready(see_slips, seen)
         self.moved = 0.0
         """Farthest that two tips have moved against each other of late [m]."""
 
     def reset(self) -> None:
         """Begin anew, as if all were well."""
-        self._before.clear()
+        self._holds[:] = -1
         self.moved = 0.0
 
     def see(self, forces: Floats) -> int | None:
@@ -58,39 +62,27 @@ class SlipWatch:
         Args:
             forces: What the tips feel, shape (limbs, 2) [N]; infinite where they cannot tell.
         """
-        body, before = self._body, self._before
-        seen = (body.pose, body.tips), (body.settled, body.settled_tips)
-        turned = [(cmath.rect(1.0, at.item(2)), tips.view(np.complex128).ravel().tolist()) for at, tips in seen]
-        (turn, tips), (settled_turn, settled_tips) = turned
-        lost, most = None, 0.0
-        for pair in self._pairs:
+        self.moved = self._see()
+        if self.moved <= MOVED:
+            return None
+        body, lost, most = self._body, None, MOVED
+        for pair, change, beyond in zip(self._pairs.tolist(), self._changes, self._beyond, strict=True):
+            size = float(np.hypot(*change))
+            if size <= most:
+                continue
+            most = size
+            if self._beyond_play(pair, beyond) <= BEYOND:
+                continue
             a, b = pair
-            one, other = body.tasks[a], body.tasks[b]
-            if one.mode not in ("stance", "unloaded_contact") or other.mode not in ("stance", "unloaded_contact"):
-                before.pop(pair, None)
-                continue
-            felt, settled = turn * (tips[a] - tips[b]), settled_turn * (settled_tips[a] - settled_tips[b])
-            known = before.get(pair)
-            if known is None or known[:2] != (one.hold, other.hold):
-                before[pair] = one.hold, other.hold, felt, settled
-                continue
-            _, _, was_felt, was_settled = known
-            changes = felt - was_felt, settled - was_settled
-            before[pair] = (*known[:2], was_felt + self._rate * changes[0], was_settled + self._rate * changes[1])
-            change = min(changes, key=abs)
-            size = abs(change)
-            if size > max(most, MOVED) and self._beyond_play(pair, felt - was_settled) > BEYOND:
-                along = body.grab_direction(a) + body.grab_direction(b)
-                off, other_one = (a, b) if change.real * along[0] + change.imag * along[1] > 0.0 else (b, a)
-                loads = math.hypot(*forces[off].tolist()), math.hypot(*forces[other_one].tolist())
-                if size > SURELY or not all(BEARING[0] < force < math.inf for force in loads):
-                    swapped = BEARING[0] < loads[0] < math.inf and loads[1] < BEARING[1]
-                    lost = other_one if swapped else off
-            most = max(most, size)
-        self.moved = most
+            along = body.grab_direction(a) + body.grab_direction(b)
+            off, other = (a, b) if change @ along > 0.0 else (b, a)
+            loads = math.hypot(*forces[off].tolist()), math.hypot(*forces[other].tolist())
+            if size > SURELY or not all(BEARING[0] < force < math.inf for force in loads):
+                swapped = BEARING[0] < loads[0] < math.inf and loads[1] < BEARING[1]
+                lost = other if swapped else off
         return lost
 
-    def _beyond_play(self, pair: tuple[int, int], moved: complex) -> float:
+    def _beyond_play(self, pair: Sequence[int], moved: Floats) -> float:
         """How far two tips have moved against each other at the least, wherever their joints may be within their play [m].
 
         What the joints of both limbs can make of their play is a polygon with the directions of single joints as edges; this is the
@@ -103,5 +95,5 @@ class SlipWatch:
         body = self._body
         ways = np.concatenate([body.turned_by_joints(i) for i in pair], axis=1) * (0.5 * body.backlash)
         normals = np.stack((-ways[1], ways[0])) / np.maximum(np.hypot(*ways), 1e-12)
-        across = np.abs(normals.T @ (moved.real, moved.imag))
+        across = np.abs(normals.T @ moved)
         return float((across - np.abs(normals.T @ ways).sum(axis=1)).max(initial=0.0))

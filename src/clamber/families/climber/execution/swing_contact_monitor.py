@@ -51,10 +51,11 @@ class PushedBody:
     def _is_pushed(self) -> bool:
         if self._climber.hangs:
             return False
-        x, y, angle = (self._climber.body.pose - self._climber.body.aim).tolist()
-        off = math.hypot(x, y), abs(angle)
-        self._off = min(off[0], self._off[0]), min(off[1], self._off[1])
-        moved, turned = off[0] - self._off[0], off[1] - self._off[1]
+        body = self._climber.body
+        (x, y, angle), (aimed_x, aimed_y, aimed) = body.pose.tolist(), body.aim.tolist()
+        off, aside = math.hypot(x - aimed_x, y - aimed_y), abs(angle - aimed)
+        least = self._off = min(off, self._off[0]), min(aside, self._off[1])
+        moved, turned = off - least[0], aside - least[1]
         if not self._brisk and (moved > IN_ANY_CASE[0] or turned > IN_ANY_CASE[1]):
             return True
         sways = moved > MOVED[self._brisk] or turned > TURNED[self._brisk]

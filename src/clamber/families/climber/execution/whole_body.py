@@ -13,14 +13,15 @@ from ....control.records import AXES
 from ....types import Floats
 from ..control.backlash import weight_moment
 from ..control.body_estimate import ENCODER
-from ..control.body_tick import LIMB_TASK, BodyWork, command_tick, see_tick
+from ..control.body_tick import BodyWork, command_tick, see_tick
 from ..control.hook_forces import MOST_CUTS, pair_forces
 from ..control.limb_chain import chain_of_limb, legs_of
+from ..control.planar_limb import LIMB_TASK
 from ..control.virtual_potential import repel_limbs
 from ..robot.robot import LimbedRobot
 from .body_gains import USUAL, BodyGains, records_of
 from .body_schemes import SCHEMES
-from .limb_task import LIMB_MODES, LimbTask
+from .limb_task import LimbTask
 from .postures import postures
 
 PLAY_TIME: Final = 0.2
@@ -37,10 +38,6 @@ REPELLED: Final = ("swing_cartesian", "swing_joint")
 MOST_REPELLED: Final = 3.0
 """Largest force of the potential over the robot's weight [-] (chosen): it stops a limb that comes at full speed, whose rotors are most
 of its inertia; with the weight itself one got through."""
-BENT: Final = math.radians(12.0)
-"""Where the soft stop of an elbow begins, before it is straight [rad]."""
-STOP: Final = 6.0
-"""Its torque on a straight elbow, as much as a push of a hook makes there [N m]."""
 
 
 class WholeBody:
@@ -73,7 +70,9 @@ class WholeBody:
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
         self._states = np.zeros((1, 2, 2))
-        self.tasks = [LimbTask("swing_joint") for _ in range(n)]
+        self._jobs = np.zeros(n, LIMB_TASK)
+        self.tasks: tuple[LimbTask, ...] = ()
+        """What each limb is doing; `assign` gives it something else."""
         self.pose, self.twist = np.zeros(3), np.zeros(3)
         """Estimated body pose and speed, world frame."""
         self.aim, self.aim_speed = np.zeros(3), np.zeros(3)
@@ -95,11 +94,10 @@ class WholeBody:
         self._carriers = np.zeros((2, n), np.int64)
         """1 for those that carry: who did until now, and who will once the load has been handed over."""
         self._weights = np.zeros(n)
-        self._handed = 1.0
+        self._handed = np.array((1.0, period / HANDING_OVER))
         self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
+        self._places, self._felt_places, self._place_speeds, self._grabs = np.zeros((4, n, 2))
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2, period / LOAD_TIME))
-        self._jobs = np.zeros(n, LIMB_TASK)
-        self._job = {name: self._jobs[name] for name in LIMB_TASK.names or ()}
         drives = np.array([[law.buffers for law in laws] for laws in (self._pullers, self._reachers)])
         self.work: Final = BodyWork(
             legs=self.legs, gains=records_of(gains, robot), jobs=self._jobs, drives=drives,
@@ -107,7 +105,9 @@ class WholeBody:
             holds=self._holds, arms=np.zeros((n, 2)), tips=self.tips, tip_speeds=self.tip_speeds,
             settled_tips=self.settled_tips, spare_speeds=np.zeros((n, 2)),
             pose=self.pose, twist=self.twist, settled=self.settled, spare_twist=np.zeros(3),
-            aimed=self.aim, aim_speed=self.aim_speed, play=self.play, sure=self.sure, carriers=self._carriers,
+            aimed=self.aim, aim_speed=self.aim_speed, places=self._places, felt_places=self._felt_places,
+            place_speeds=self._place_speeds, grabs=self._grabs,
+            play=self.play, sure=self.sure, carriers=self._carriers, handed=self._handed,
             pulls=np.zeros((n, 2)), forces=np.zeros((n, 2)), old_pulls=np.zeros((n, 2)), old_forces=np.zeros((n, 2)),
             cuts=self._cuts, drags=np.zeros((n, 2)), least=np.full(n, gains.alpha), pressed=np.zeros(n, np.int64),
             loads=np.zeros((n, 2)), loads_now=np.zeros(2), lag=self._lag, wanted=np.zeros(3), fed=np.zeros(3),
@@ -115,7 +115,7 @@ class WholeBody:
         )  # fmt: skip
         """What a tick works on, these arrays among it."""
         work = Handle(self.work)
-        self._see_tick, self._command_tick = ready(see_tick, work, 0.0, 0.0, ENCODER), ready(command_tick, work, 1.0)
+        self._see_tick, self._command_tick = ready(see_tick, work, 0.0, 0.0, ENCODER), ready(command_tick, work)
         longest = max(limb.length for limb in robot.limbs)
         self._field = np.array(
             (gains.potential_range * longest, gains.potential * robot.weight, MOST_REPELLED * robot.weight)
@@ -125,6 +125,13 @@ class WholeBody:
         self.gaps = np.full(n, np.inf)
         """Gap of each free limb's second link to the body, with a virtual potential; infinity for others [m]."""
         self._scheme = None if gains.scheme == "body" else SCHEMES[gains.scheme](self)
+        for i in range(n):
+            self.assign(i, LimbTask("swing_joint"))
+
+    def assign(self, i: int, task: LimbTask) -> None:
+        """Give limb `i` something else to do."""
+        task.attach(self._jobs, i)
+        self.tasks = (*self.tasks[:i], task, *self.tasks[i + 1 :])
 
     def see(self, q: Floats, qd: Floats, angle: float, angle_speed: float, *, angle_from: int = ENCODER) -> None:
         """Take in a tick's measurements and estimate where the body is.
@@ -135,12 +142,10 @@ class WholeBody:
             angle_from: One of `control.body_estimate`: ENCODER, LINE, SECOND_TIP.
         """
         self.q[:], self.qd[:] = q, qd
-        for i, task in enumerate(self.tasks):
-            self.held[i] = task.holds
-            if task.holds:
-                self._holds[i] = task.place
-        self._pass_load()
-        self._see_tick(angle, angle_speed, angle_from)
+        if self._see_tick(angle, angle_speed, angle_from):
+            for task, held in zip(self.tasks, self.held, strict=True):
+                if task.holds and not held:
+                    task.mode = "unloaded_contact"
 
     def reckon_with(self, backlash: float) -> None:
         """Believe in another backlash of every joint from now on [rad]."""
@@ -152,7 +157,7 @@ class WholeBody:
 
         A hand-over that is still going on is over: all its limbs carry when this one begins.
         """
-        self._handed = 1.0
+        self._handed[0] = 1.0
         now = [i for i in range(self.n) if self.tasks[i].mode == "stance"]
         for i in carriers:
             self.tasks[i].mode = "stance"
@@ -160,13 +165,13 @@ class WholeBody:
             return
         for row, limbs in zip(self._carriers, (now, carriers), strict=True):
             row[:] = [i in limbs for i in range(self.n)]
-        self._handed = 0.0
+        self._handed[0] = 0.0
 
     def carry_at_once(self, carriers: Collection[int]) -> None:
         """Let the load jump to these limbs: for where another has lost it already."""
         for i in carriers:
             self.tasks[i].mode = "stance"
-        self._handed = 1.0
+        self._handed[0] = 1.0
 
     def stands(self, pose: Floats, carriers: Sequence[int] | None = None) -> float:
         """How well limbs would hold at a pose of the body, in newtons of the worst wish; -inf out of reach.
@@ -199,50 +204,22 @@ class WholeBody:
     @property
     def handing_over(self) -> bool:
         """Whether the load is passing from limbs to others."""
-        return self._handed < 1.0
-
-    def _pass_load(self) -> None:
-        """One tick of a hand-over; how much each limb that holds says about where the body is."""
-        if self.handing_over:
-            step = self.period / HANDING_OVER
-            # sums of steps miss 1 by rounding: a tick more, with all of the load passed, would be no hand-over to the compiled tick
-            self._handed = self._handed + step if self._handed + 1.5 * step < 1.0 else 1.0
-            if self._handed == 1.0:
-                for i, task in enumerate(self.tasks):
-                    if self.held[i] and not self._carriers[1, i]:
-                        task.mode, self.held[i] = "unloaded_contact", 0
-        if self.handing_over:
-            part = self._part()
-            before, after = self._carriers
-            np.add((1.0 - part) / before.sum() * before, part / after.sum() * after, out=self._weights)
-        else:
-            self._weights[:] = self.held
-
-    def _part(self) -> float:
-        """Of the load that has passed, smooth at both ends [-]."""
-        u = self._handed
-        return u * u * (3.0 - 2.0 * u)
+        return bool(self._handed[0] < 1.0)
 
     def tip(self, i: int) -> Floats:
         """A limb's tip in the world by encoders and estimate, the play counted [m]."""
-        c, s = math.cos(self.settled[2]), math.sin(self.settled[2])
-        x, y = self.settled_tips[i]
-        return np.array((self.settled[0] + c * x - s * y, self.settled[1] + s * x + c * y))
+        out: Floats = self._places[i].copy()
+        return out
 
     def felt_tip(self, i: int) -> Floats:
         """The same by the encoders alone: rougher, but it moves only when a motor does [m]."""
-        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
-        x, y = self.tips[i]
-        return np.array((self.pose[0] + c * x - s * y, self.pose[1] + s * x + c * y))
+        out: Floats = self._felt_places[i].copy()
+        return out
 
     def tip_speed(self, i: int) -> Floats:
         """Its speed in the world [m/s]."""
-        c, s = math.cos(self.pose[2]), math.sin(self.pose[2])
-        x, y = self.tips[i]
-        vx, vy = self.tip_speeds[i]
-        w = self.twist[2]
-        ax, ay = vx - w * y, vy + w * x
-        return np.array((self.twist[0] + c * ax - s * ay, self.twist[1] + s * ax + c * ay))
+        out: Floats = self._place_speeds[i].copy()
+        return out
 
     def turned_by_joints(self, i: int) -> Floats:
         """How a limb's tip moves with its joints, world frame, one column a joint, shape (2, 2) [m/rad]."""
@@ -259,9 +236,8 @@ class WholeBody:
 
     def grab_direction(self, i: int) -> Floats:
         """Where a limb's hook pulls, world frame, unit vector."""
-        limb = self.robot.limbs[i]
-        angle = self.pose[2] + limb.port_angle + self.q[i, 0] + self.q[i, 1] + limb.end.angle
-        return np.array((math.cos(angle), math.sin(angle)))
+        out: Floats = self._grabs[i].copy()
+        return out
 
     def command(self) -> Floats:
         """Torques of this tick, shape (limbs, 2) [N m].
@@ -270,23 +246,9 @@ class WholeBody:
             MeasurementError: If a measurement is not finite.
             AimError: Likewise of an aim.
         """
-        job = self._job
-        for i, task in enumerate(self.tasks):
-            mode = task.mode
-            job["mode"][i], job["pressed"][i] = LIMB_MODES[mode], task.pressed
-            if mode in ("swing_cartesian", "unloaded_contact"):
-                job["place"][i], job["speed"][i] = task.place, task.speed
-            elif mode == "contact_push":
-                job["force"][i], job["tug"][i], job["damping"][i] = task.force, task.tug, task.damping
-            elif mode in ("swing_joint", "hang"):
-                job["angles"][i], job["rates"][i] = task.angles, task.rates
-                job["accelerations"][i], job["loads"][i] = task.accelerations, task.loads
-        bad = self._command_tick(self._part() if self.handing_over else 1.0)
+        bad = self._command_tick()
         if bad >= 0:
             self._complain(bad)
-        for i, task in enumerate(self.tasks):
-            if task.side:
-                self.torques[i, 1] += task.side * STOP * max(0.0, 1.0 - task.side * self.q.item(i, 1) / BENT)
         if self.gains.potential > 0.0:
             self._free[:] = [task.mode in REPELLED for task in self.tasks]
             repel_limbs(self.legs, self.q, self._free, self._outline, self._skin, self._field, self.torques, self.gaps)

@@ -7,7 +7,6 @@ from typing import Any, Final
 import numpy as np
 from matplotlib.figure import Figure
 
-from ....compiled import Handle
 from ....types import Floats
 from ....viewing import style
 from ....viewing.recording import Part, Recording, View
@@ -15,9 +14,9 @@ from ....viewing.route import draw_way, label_ghost, pick_ghosts
 from ....viewing.scene import describe_pose
 from ....viewing.view import Picture
 from ..control.felt_force import feel_forces
-from ..control.limb_chain import legs_of
 from ..execution.climb_report import ActionReport
 from ..execution.climb_trace import ClimbTrace
+from ..execution.whole_body import WholeBody
 from ..planning.task import LimbedTask
 from ..robot.robot import Limb
 from ..trials.run_plan import ClimbRun
@@ -77,7 +76,8 @@ class ClimbFilm(View[Moment]):
         self.grades = (3, *map(_grade, actions))
         self.starts = np.array([0.0, *(action.start for action in actions)])
         self.ends = np.array([0.0, *(action.start + action.seconds for action in actions)])
-        self._legs = legs_of(task.robot)
+        self._body = WholeBody(task.robot, period=1.0)
+        self._body.held[:] = 1
 
     def draw(self, picture: Picture[Moment]) -> ClimberArtists:
         """Wall and climber, with the pegs as they truly are."""
@@ -124,11 +124,10 @@ class ClimbFilm(View[Moment]):
         torques = (
             trace.torques[first : max(last, first + 1)].mean(axis=0) if first < len(trace.time) else trace.torques[k]
         )
-        n = len(self._legs)
-        still, forces = np.zeros((n, 2)), np.zeros((n, 2))
-        angle = float((trace.believed if trace.true_pose is None else trace.true_pose)[k, 2])
-        seen = self._legs, np.ones(n, np.int64), trace.angles[k].copy(), still, still.copy(), torques.copy()
-        feel_forces(Handle(*seen, np.zeros((n, 2)), forces), angle, 1.0, 1.0)
+        body, still, forces = self._body, np.zeros((self._body.n, 2)), np.zeros((self._body.n, 2))
+        body.pose[2] = (trace.believed if trace.true_pose is None else trace.true_pose)[k, 2]
+        body.q[:], body.torques[:] = trace.angles[k], torques
+        feel_forces(body.work, still, still.copy(), forces, body.period, 1.0)
         return -forces
 
     def settled(self, step: int) -> Moment:

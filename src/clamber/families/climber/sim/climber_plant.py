@@ -87,7 +87,7 @@ class ClimberPlant:
         # what pays for itself with hundreds of geoms and many robots costs a tenth of a step here
         self.model.opt.disableflags |= mujoco.mjtDisableBit.mjDSBL_MIDPHASE | mujoco.mjtDisableBit.mjDSBL_ISLAND
         self._data: Any = mujoco.MjData(self.model)
-        self._step = mujoco.mj_step
+        self._step, self._steps = mujoco.mj_step, flaws.steps
         chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
         names = [name for chain in chains for name in chain.joint_names]
         joints = [self.model.joint(name) for name in names]
@@ -95,6 +95,7 @@ class ClimberPlant:
         self._qpos, self._qvel = self._data.qpos, self._data.qvel
         self._site_places = self._data.site_xpos
         self._at = np.array([2, *(joint.qposadr[0] for joint in joints)])
+        self._joints_at = self._at[1:]
         self._speed_at = np.array([2, *(joint.dofadr[0] for joint in joints)])
         self._play = np.array([joint.qposadr[0] + 1 for joint in joints]) if flaws.backlash > 0.0 else None
         motors = np.array([self.model.actuator(name).id for name in names])
@@ -212,9 +213,9 @@ class ClimberPlant:
         """Let one control period pass."""
         self.grippers.act(self._grips)
         if self._drive(self.period):
-            self._step(self.model, self._data, self.flaws.steps)
+            self._step(self.model, self._data, self._steps)
         else:  # near a limit the torque follows the speed at every physics step
-            for _ in range(self.flaws.steps):
+            for _ in range(self._steps):
                 self._drive(0.0)
                 self._step(self.model, self._data, 1)
         self.grippers.feel()
@@ -223,13 +224,10 @@ class ClimberPlant:
 
     def truth(self) -> BodyTruth:
         """How things really are."""
-        q = self._qpos[self._at[1:]]
+        q = self._qpos[self._joints_at]
         if self._play is not None:
             q += self._qpos[self._play]
+        tips, torques = self._site_places[self._sites], self._given.copy()
         return BodyTruth(
-            self._qpos[:3].copy(),
-            q.reshape(-1, 2),
-            self._site_places[self._sites, :2],
-            self._given[0].reshape(-1, 2).copy(),
-            self._hold_limits.broken,
+            self._qpos[:3].copy(), q.reshape(-1, 2), tips[:, :2], torques.reshape(-1, 2), self._hold_limits.broken
         )

@@ -53,7 +53,7 @@ def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Fl
     places = {hold.number: np.array((hold.x, hold.y)) for hold in stand.board.holds}
     for i, limb in enumerate(stand.robot.limbs):
         number = stand.holds.get(limb.name, 0)
-        body.tasks[i] = LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint")
+        body.assign(i, LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint"))
     still = np.zeros((body.n, 2))
     body.aim[:] = aim
     # laws that remember joint angles begin at the aim
