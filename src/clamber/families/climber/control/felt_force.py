@@ -169,7 +169,7 @@ def see_slips(handle):
 
 
 @kernel
-def see_pairs(handle, angle, fresh):
+def see_pairs(handle, angle, fresh, far):
     """How the tips of pairs of limbs on holds lie to each other, and how far the line of those that hold the body has turned.
 
     Args:
@@ -181,10 +181,15 @@ def see_pairs(handle, angle, fresh):
             reading is unchanged, shape (2 n,) or more, and between two looks.
         angle: Of the body by its encoder [rad].
         fresh: Whether that has changed since the look before: the lines' first directions are those of now.
+        far: Beyond this, by the encoders and with the play counted, tips have moved from where they came to their holds [m].
+
+    Returns:
+        Whether those of any pair have.
     """
     work, pairs, came_to, lined, lines, came, lay, between, turned, unchanged, every = opened(handle)
     shift = angle - work.pose[2]
     least = math.inf
+    moved = False
     for k in range(pairs.shape[0]):
         a, b = pairs[k]
         one, other = work.jobs[a], work.jobs[b]
@@ -193,12 +198,12 @@ def see_pairs(handle, angle, fresh):
         if one.mode != STANCE or other.mode != STANCE:
             lined[k] = -1
         else:
-            felt = _direction(work.tips, a, b)
-            settled = _direction(work.settled_tips, a, b)
+            by_encoders = _direction(work.tips, a, b)
+            by_outputs = _direction(work.settled_tips, a, b)
             if lined[k, 0] != one.hold or lined[k, 1] != other.hold:
                 lined[k, 0], lined[k, 1] = one.hold, other.hold
-                lines[k, 0], lines[k, 1] = felt, settled
-            least = min(least, _turn(felt - lines[k, 0]), _turn(settled - lines[k, 1]))
+                lines[k, 0], lines[k, 1] = by_encoders, by_outputs
+            least = min(least, _turn(by_encoders - lines[k, 0]), _turn(by_outputs - lines[k, 1]))
         if one.mode not in (STANCE, UNLOADED_CONTACT) or other.mode not in (STANCE, UNLOADED_CONTACT):
             came_to[k] = -1
             continue
@@ -211,7 +216,10 @@ def see_pairs(handle, angle, fresh):
         for row in range(4):
             if new or unchanged[2 * pairs[k, row // 2] + row % 2] < every:
                 lay[k, row] = between[k]
+        felt = math.hypot(between[k, 0] - came[k, 0], between[k, 1] - came[k, 1])
+        moved |= min(felt, math.hypot(between[k, 2] - came[k, 2], between[k, 3] - came[k, 3])) > far
     turned[0] = least if least < math.inf else 0.0
+    return moved
 
 
 @inlined
@@ -260,7 +268,9 @@ def see_signs(handle):
             signs |= SLACK
     if first < 0:
         return signs | UNHELD
-    if abs(_distance(work.tips, first, last) - _distance_of_places(work.jobs[first], work.jobs[last])) > STRAIN:
+    one, other, tips = work.jobs[first], work.jobs[last], work.tips
+    apart = math.hypot(tips[first, 0] - tips[last, 0], tips[first, 1] - tips[last, 1])
+    if abs(apart - math.hypot(one.place[0] - other.place[0], one.place[1] - other.place[1])) > STRAIN:
         signs |= STRAINED
     if work.jobs[first].mode == HANG:
         return signs | HANGING
@@ -270,13 +280,3 @@ def see_signs(handle):
     if off > ASTRAY or abs(work.pose[2] - work.aimed[2]) > TURNED:
         signs |= LOST
     return signs
-
-
-@inlined
-def _distance(tips, a, b):
-    return math.hypot(tips[a, 0] - tips[b, 0], tips[a, 1] - tips[b, 1])
-
-
-@inlined
-def _distance_of_places(one, other):
-    return math.hypot(one.place[0] - other.place[0], one.place[1] - other.place[1])

@@ -1,5 +1,7 @@
 """The limbs of a climber as the laws know them: each as a chain, and all as records of the body's control."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ....control.chain import Chain, ShareBasis, _wrapped, empty_chain, rotation
@@ -76,11 +78,11 @@ def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float]
     return tuple(out)
 
 
-def legs_of(robot: LimbedRobot) -> Records:
-    """Records of `control.planar_limb.PLANAR_LIMB`, shape (limbs,)."""
+def legs_of(robot: LimbedRobot, chains: Sequence[Chain] | None = None) -> Records:
+    """Records of `control.planar_limb.PLANAR_LIMB`, shape (limbs,); `chains` are those of the limbs, where there are any already."""
     legs = np.zeros(len(robot.limbs), PLANAR_LIMB)
     for i, limb in enumerate(robot.limbs):
-        joints = chain_of_limb(robot, limb.name).joints
+        joints = (chain_of_limb(robot, limb.name) if chains is None else chains[i]).joints
         masses, centres = joints["mass"], joints["centre"][:, 0]
         legs[i] = (
             *(limb.port_x, limb.port_y, limb.port_angle, limb.l1, limb.l2_effective, limb.hook_beta),

@@ -68,12 +68,14 @@ def free_distance(peg_radius: float, doubt: float) -> float:
 
 def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int], float]) -> Floats:
     """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
-    c, s = np.cos(pose[2]), np.sin(pose[2])
-    out = []
-    for number, place in holds.items():
-        dx, dy = place - pose[:2]
-        if np.hypot(dx, dy) < NEARBY:
-            out.append((c * dx + s * dy, -s * dx + c * dy, radius(number)))
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    away = np.array(list(holds.values())).reshape(-1, 2) - pose[:2]
+    near = np.hypot(away[:, 0], away[:, 1]) < NEARBY
+    out = [
+        (c * dx + s * dy, -s * dx + c * dy, radius(number))
+        for number, (dx, dy), is_near in zip(holds, away.tolist(), near, strict=True)
+        if is_near
+    ]
     return np.array(out).reshape(-1, 3)
 
 

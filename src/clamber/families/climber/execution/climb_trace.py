@@ -3,16 +3,17 @@
 import json
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final, Protocol
+from typing import Any, Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....execution.log import Log, LogError
-from ....execution.plant import HoldBreak
+from ....execution.plant import BodyTruth
 from ....execution.sample_log import fields_of, note_of, report_notes, report_of, sample_log, table_of, width
 from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
-from ..control.planar_limb import STANCE
+from ..control.body_tick import sample_tick
 from .climber import Climber
 
 TOPIC: Final = "climb"
@@ -23,28 +24,10 @@ EVERY: Final = 4
 """Ticks between samples; the last tick is always one."""
 WHOLE: Final = frozenset({"step", "holds", "carries"})
 """Fields of whole numbers."""
+UNKNOWN: Final = np.empty(0), np.empty((0, 2))
+"""Pose and joint angles of a climber that nobody tells of."""
 JOINTWISE: Final = ("angles", "true_angles", "torques")
 """Fields with two numbers a limb."""
-
-
-class Truth(Protocol):
-    """How a climber really is."""
-
-    @property
-    def pose(self) -> Floats:
-        """Body x, y [m], theta [rad]."""
-
-    @property
-    def q(self) -> Floats:
-        """Joint angles at the gears' outputs, shape (limbs, 2) [rad]."""
-
-    @property
-    def tips(self) -> Floats:
-        """World frame, shape (limbs, 2) [m]."""
-
-    @property
-    def broken(self) -> tuple[HoldBreak, ...]:
-        """Holds that have given way since the start."""
 
 
 def climb_titles(limbs: tuple[str, ...], *, true: bool) -> dict[str, tuple[str, ...]]:
@@ -146,13 +129,15 @@ class TracedClimber(Climber):
     """
 
     def __init__(
-        self, *args: Any, truth: Callable[[], Truth] | None = None, every: int = EVERY, **options: Any
+        self, *args: Any, truth: Callable[[], BodyTruth] | None = None, every: int = EVERY, **options: Any
     ) -> None:
         super().__init__(*args, **options)
         self.truth = truth
         self.step = 0
         """Number of the action that is carried out."""
         self.samples = Samples(self, every)
+        self._width = len(self.titles)
+        self._sample = ready(sample_tick, Handle(self.body.work), 0.0, 0.0, *UNKNOWN, np.empty(self._width))
 
     @property
     def limbs(self) -> tuple[str, ...]:
@@ -175,13 +160,10 @@ class TracedClimber(Climber):
 
     def sample(self) -> Floats:
         """Of now, in the order of `titles`."""
-        body, now = self.body, np.array((self.time, self.step))
-        jobs, angles = body.work.jobs, body.q.ravel()
-        told = body.torques.ravel(), jobs["hold"], jobs["mode"] == STANCE
-        if self.truth is None:
-            return np.concatenate((now, body.settled, body.aim, angles, *told))
-        true = self.truth()
-        return np.concatenate((now, body.settled, body.aim, true.pose, angles, true.q.ravel(), *told))
+        pose, q = UNKNOWN if self.truth is None else self.truth()[:2]
+        row = np.empty(self._width)
+        self._sample(self.time, float(self.step), np.ascontiguousarray(pose), np.ascontiguousarray(q), row)
+        return row
 
     def trace(self, notes: Json | None = None) -> ClimbTrace:
         """All samples so far."""

@@ -35,10 +35,11 @@ def postures(limb: Limb, pose: Floats, place: Floats) -> list[Posture]:
         pose: Body x, y [m], theta [rad].
         place: Of the tip, world frame [m].
     """
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    dx = place[0] - pose[0] - (c * limb.port_x - s * limb.port_y)
-    dy = place[1] - pose[1] - (s * limb.port_x + c * limb.port_y)
-    turn = limb.port_angle + pose[2]
+    (x, y, angle), (to_x, to_y) = pose.tolist(), place.tolist()
+    c, s = math.cos(angle), math.sin(angle)
+    dx = to_x - x - (c * limb.port_x - s * limb.port_y)
+    dy = to_y - y - (s * limb.port_x + c * limb.port_y)
+    turn = limb.port_angle + angle
     ct, st = math.cos(turn), math.sin(turn)
     out = []
     for angles in closed_branches(limb, ct * dx + st * dy, ct * dy - st * dx):

@@ -84,9 +84,8 @@ class SelfWatch:
         self._turned = np.zeros(1)
         """Least that the body has turned by the line of a pair that holds it since its encoder changed last [rad]."""
         pairs = self._pairs, self._came_to, self._lined, np.zeros((n, 2)), self._came, self._lay, self._between
-        self._see_pairs = ready(
-            see_pairs, Handle(body.work, *pairs, self._turned, monitor.unchanged, self._every), 0.0, True
-        )
+        looks = Handle(body.work, *pairs, self._turned, monitor.unchanged, self._every)
+        self._see_pairs = ready(see_pairs, looks, 0.0, True, 0.0)
         self.reset()
 
     def reset(self) -> None:
@@ -119,9 +118,13 @@ class SelfWatch:
         self._ticks += 1
         if self._ticks % self._every:
             return None
-        self._see_pairs(angle, self._fresh)
-        self._fresh = False
+        moved, self._fresh = self._see_pairs(angle, self._fresh, self._wandered_off), False
         self._look_at_body()
+        if self._monitor.silent.any():
+            self._look_at_silent()
+        if not moved:
+            self._wandered = 0
+            return None
         return self._look_at_tips()
 
     def _look_at_motors(self) -> None:
@@ -193,8 +196,6 @@ class SelfWatch:
 
     def _look_at_tips(self) -> int | None:
         """Whether tips have moved against each other that are on their holds; the one that clings beside its hold."""
-        if self._monitor.silent.any():
-            self._look_at_silent()
         wandered = []
         for pair, came_to, between, came in zip(
             self._pairs.tolist(), self._came_to.tolist(), self._between.tolist(), self._came.tolist(), strict=True

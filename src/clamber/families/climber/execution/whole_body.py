@@ -63,7 +63,7 @@ class WholeBody:
         n = len(robot.limbs)
         self.n = n
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
-        self.legs = legs_of(robot)
+        self.legs = legs_of(robot, self.chains)
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
         free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]

@@ -16,7 +16,7 @@ from ..execution.wiring import encoder_resolution
 from ..robot.robot import LimbedRobot
 from ..world.board import Board
 from .climber_model import HookShape, climber_spec
-from .climber_wires import command_motors, sense_climber
+from .climber_wires import command_motors, sense_climber, tell_truth
 from .grippers import Grippers
 from .hold_limits import HoldLimits
 
@@ -95,9 +95,7 @@ class ClimberPlant:
         self._qpos, self._qvel = self._data.qpos, self._data.qvel
         self._site_places = self._data.site_xpos
         self._at = np.array([2, *(joint.qposadr[0] for joint in joints)])
-        self._joints_at = self._at[1:]
         self._speed_at = np.array([2, *(joint.dofadr[0] for joint in joints)])
-        self._play = np.array([joint.qposadr[0] + 1 for joint in joints]) if flaws.backlash > 0.0 else None
         motors = np.array([self.model.actuator(name).id for name in names])
         self._sites = np.array([self.model.site(f"{limb.name} tip").id for limb in robot.limbs])
         records = np.concatenate([chain.joints for chain in chains])
@@ -121,6 +119,8 @@ class ClimberPlant:
         )  # fmt: skip
         self._drive = ready(command_motors, wires, self.period)
         """Puts what the motors give at the present speeds on the joints; whether that may be held for a time [s]."""
+        told = Handle(self._qpos, self._at, int(flaws.backlash > 0.0), self._site_places, self._sites, self._given)
+        self._tell = ready(tell_truth, told, np.empty(3), *np.empty((3, len(robot.limbs), 2)))
         self._pushed = self._data.xfrc_applied[self.model.body("body").id]
         self._believed = board.positions()
         self._pegs = self._believed if pegs is None else pegs
@@ -224,10 +224,6 @@ class ClimberPlant:
 
     def truth(self) -> BodyTruth:
         """How things really are."""
-        q = self._qpos[self._joints_at]
-        if self._play is not None:
-            q += self._qpos[self._play]
-        tips, torques = self._site_places[self._sites], self._given.copy()
-        return BodyTruth(
-            self._qpos[:3].copy(), q.reshape(-1, 2), tips[:, :2], torques.reshape(-1, 2), self._hold_limits.broken
-        )
+        pose, (q, tips, torques) = np.empty(3), np.empty((3, len(self._sites), 2))
+        self._tell(pose, q, tips, torques)
+        return BodyTruth(pose, q, tips, torques, self._hold_limits.broken)

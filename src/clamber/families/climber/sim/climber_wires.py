@@ -37,3 +37,25 @@ def command_motors(handle, time):
     for k in range(motors.size):
         ctrl[motors[k]] = given[0, k]
     return steady
+
+
+@kernel
+def tell_truth(handle, pose, q, tips, torques):
+    """How a climber really is.
+
+    Args:
+        handle: Holds coordinates of the model, where those of the body's angle and of all joints are in them, 1 where a joint's play comes
+            next to it, places of all sites [m], sites of the tips, and torques that the motors give, shape (1, n) [N m].
+        pose: Of the body, filled, shape (3,) [m], [rad].
+        q, tips, torques: Of the joints at the gears' outputs [rad], places of the tips, world frame [m], and of the motors [N m], filled,
+            shape (limbs, 2).
+    """
+    qpos, at, plays, sites, ends, given = opened(handle)
+    for k in range(3):
+        pose[k] = qpos[k]
+    for i in range(ends.size):
+        for k in range(2):
+            j = at[1 + 2 * i + k]
+            q[i, k] = qpos[j] + qpos[j + 1] if plays else qpos[j]
+            tips[i, k] = sites[ends[i], k]
+            torques[i, k] = given[0, 2 * i + k]
