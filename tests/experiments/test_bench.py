@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from clamber.benchmarks import batches, benches, peers, rows, speed, starts
+from clamber.benchmarks import batches, benches, peers, speed, starts
 from clamber.benchmarks.batches import ScalingLaw
 from clamber.benchmarks.planner_trials import ABLATION_TASKS, VARIANTS, bench_ablation, run_cases, run_trials, varied
 from clamber.benchmarks.speed import PlainProblem, plain_module
@@ -139,7 +139,7 @@ def test_memory_is_that_of_the_command_and_not_of_the_process_that_starts_it(tmp
 def test_the_ablation_runs_on_every_task() -> None:
     told = bench_ablation(seeds=range(1), variants=("default",))
     assert {row.name.split(", default")[0] for row in told} == set(ABLATION_TASKS)
-    assert all(isinstance(row, rows.Row) for row in told)
+    assert all(isinstance(row, Row) for row in told)
 
 
 def test_the_scaling_law_keeps_its_limits() -> None:

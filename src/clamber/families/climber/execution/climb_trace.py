@@ -13,7 +13,7 @@ from ....execution.plant import BodyTruth
 from ....execution.sample_log import fields_of, note_of, report_notes, report_of, sample_log, table_of, width
 from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
-from ..control.body_tick import sample_tick
+from ..control.body_estimate import sample_tick
 from .climber import Climber
 
 TOPIC: Final = "climb"
