@@ -21,7 +21,7 @@ from clamber.families.spatial.execution.carrying import Carrying
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, regrab, rest, scaled, share_loads, take
+from clamber.families.spatial.execution.motions import SPEED, joints_along, regrab, rest, scaled, share_loads, take
 from clamber.families.spatial.execution.references import (
     BodyPath,
     TimeScaling,
@@ -299,13 +299,14 @@ def test_a_swing_takes_so_long_that_its_joints_keep_to_their_speeds(name: str) -
     scaling = scaled(body, limb, path, motion.after.joints, 0.01)
     shares, dense = np.linspace(0.0, 1.0, 400), np.linspace(0.0, scaling.times[-1], 10_000)
     times = np.interp(shares, [scaling.at(time)[0] for time in dense], dense)
-    points = np.array([path.at(share)[0] for share in shares])
-    joints = body.joints_along(limb, points, motion.after.joints)
+    joints = joints_along(body, limb, path, shares, motion.after.joints)
     speeds = np.abs(np.diff(joints, axis=0)) / np.diff(times)[:, None]
     assert (speeds / limits.speed[mine]).max() < 1.05 * SPEED
     body.law.state.joints[mine] = joints[-1]
     body.law.look()
     assert body.tips[limb] == pytest.approx(end, abs=0.01 * body.pace.size)
+    if task.robot.contacts[limb].aligned:
+        assert body.law.dynamics.tip_turn[limb, :, 2] == pytest.approx(-normals[1], abs=0.02)
 
 
 def test_a_foot_in_the_air_lets_go_as_any_other() -> None:

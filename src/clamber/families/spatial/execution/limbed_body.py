@@ -8,8 +8,7 @@ import numpy.typing as npt
 
 from ....compiled import Handle, ready
 from ....control.whole_body.programme import FREE_LIMB, HOLDS, SWINGS, Gains
-from ....control.whole_body.tree import FREE, Dynamics, State
-from ....control.whole_body.tree_kernels import place_bodies, tip_motion
+from ....control.whole_body.tree import FREE
 from ....execution.run_report import FallenError
 from ....types import Floats, Ints
 from ..control.believed_tree import believed_tree, joint_limits
@@ -33,8 +32,6 @@ SURE: Final = 1.5
 """With what a foot is pressed on that has felt its ground, of the force by which it feels it [-]."""
 LIFTED: Final = 0.05
 """A foot that stands and feels nothing for that part of a shift of load is in the air [-]."""
-SINGULAR: Final = 0.01
-"""A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""
 NESTED: Final = 0.9
 """Of friction and pull that contacts are relied on for: the planner keeps its need within this, and the contacts bear more [-]."""
 
@@ -137,8 +134,6 @@ class LimbedBody:
         self._push = np.zeros(limbs)
         self._aimed = np.zeros((limbs, 3))
         """Where tips are to be that press, deep as that may be [m], shape (limbs, 3)."""
-        self._ahead = State.of(tree)
-        self._ahead_work = Dynamics.of(tree)
 
     @property
     def time(self) -> float:
@@ -199,42 +194,6 @@ class LimbedBody:
         """Have the law know what a limb's gears rub, or not while it holds on: that damps gears whose load passes through 0."""
         mine = slice(*self.joints_of(limb))
         self.law.limits.friction[mine] = self._friction[mine] if bears else 0.0
-
-    def joints_along(self, limb: int, points: Floats, posture: Floats) -> Floats:
-        """Joints of a limb whose tip goes through points while the base stays where it is to be.
-
-        Where they leave joints free, these go to a posture; what is out of reach is come near to.
-
-        Args:
-            limb: Which; it begins as it is believed to be.
-            points: Of the tip, near each other [m], shape (points, 3).
-            posture: Of all joints at the end, shape (n,).
-
-        Returns:
-            [rad] or [m], shape (points, joints of the limb).
-        """
-        law, at, work = self.law, self._ahead, self._ahead_work
-        at.rotation[:] = law.aims.rotation
-        at.position[:] = law.aims.position
-        at.joints[:] = law.state.joints
-        first, last = self.joints_of(limb)
-        mine = at.joints[first:last]
-        wanted = posture[first:last]
-        first, last = FREE + first, FREE + last
-        started = mine.copy()
-        damping = (SINGULAR * self.pace.size) ** 2 * np.eye(3)
-        found = np.empty((len(points), len(started)))
-        for k, point in enumerate(points):
-            place_bodies(law.tree, at, work)
-            tip_motion(law.tree, at, work)
-            jacobian = work.jacobian[limb, :3, first:last]
-            square = jacobian @ jacobian.T + damping
-            share = (k + 1) / len(points)
-            lean = started + share * (wanted - started) - mine
-            missed = point - work.tip[limb] - jacobian @ lean
-            mine += lean + jacobian.T @ np.linalg.solve(square, missed)
-            found[k] = mine
-        return found
 
     def swing(self, limb: int, path: tuple[Floats, Floats, Floats], points: Floats | None) -> None:
         """Where a limb's tip is to be, with velocity and acceleration, and which way its end effector is to point."""

@@ -13,6 +13,8 @@ from typing import Final
 import numpy as np
 
 from ....compiled import Handle, ready
+from ....control.whole_body.tree import FREE, Dynamics, State
+from ....control.whole_body.tree_kernels import place_bodies, tip_motion
 from ....types import Floats
 from ..statics.judging import lift_between
 from .course import BodyMotion, Regrab
@@ -28,6 +30,10 @@ PRESSED: Final = 1.5
 """Force on something that is to be closed about, of that by which it is noticed [-]."""
 SAMPLES: Final = 33
 """Places along a swing where the speeds of its joints are looked at."""
+SINGULAR: Final = 0.01
+"""A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""
+LARGEST_STEP: Final = 0.3
+"""Of a joint from one of these places to the next: near a singularity it lags behind and catches up, as under the law [rad] or [m]."""
 LEAST_SPEED: Final = 0.1
 """Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
@@ -190,12 +196,51 @@ def _land(body: LimbedBody, limb: int, end: Floats, normals: Floats, posture: Fl
 def scaled(body: LimbedBody, limb: int, path: TipPath, posture: Floats, seconds: float) -> TimeScaling:
     """Time along a swing in which its joints keep to their speeds, less near their limits; it takes so many seconds at least."""
     limits, mine = body.law.limits, slice(*body.joints_of(limb))
-    points = np.array([path.at(share)[0] for share in np.linspace(0.0, 1.0, SAMPLES)])
-    joints = body.joints_along(limb, points, posture)
+    joints = joints_along(body, limb, path, np.linspace(0.0, 1.0, SAMPLES), posture)
     moved = np.diff(joints, axis=0)
     ahead = np.where(moved > 0.0, limits.upper[mine] - joints[1:], joints[1:] - limits.lower[mine])
     most = np.clip(body.law.gains.limit_rate * ahead, LEAST_SPEED * limits.speed[mine], limits.speed[mine])
     return TimeScaling.within(seconds, (np.abs(moved) / most).max(axis=1) * (SAMPLES - 1) / SPEED)
+
+
+def joints_along(body: LimbedBody, limb: int, path: TipPath, shares: Floats, posture: Floats) -> Floats:
+    """Joints of a limb whose tip follows a path while the base stays where it is to be.
+
+    An end effector that has to be aligned turns from the path's one inward normal to the other, as `_swing` has it. Where joints are left
+    free, they go to a posture; what is out of reach is come near to.
+
+    Args:
+        body: The robot.
+        limb: Which; it begins as it is believed to be.
+        path: Of its tip.
+        shares: Of the path, at which they are wanted, near each other, shape (points,).
+        posture: Of all joints at the end, shape (n,).
+
+    Returns:
+        [rad] or [m], shape (points, joints of the limb).
+    """
+    law, size, mine = body.law, body.pace.size, slice(*body.joints_of(limb))
+    at, work = State.of(law.tree), Dynamics.of(law.tree)
+    at.rotation[:], at.position[:], at.joints[:] = law.aims.rotation, law.aims.position, law.state.joints
+    joints, columns = at.joints[mine], slice(FREE + mine.start, FREE + mine.stop)
+    started, wanted = joints.copy(), posture[mine]
+    aligned, direction = body.robot.contacts[limb].aligned, np.empty(3)
+    found = np.empty((len(shares), len(joints)))
+    for k, share in enumerate(shares):
+        place_bodies(law.tree, at, work)
+        tip_motion(law.tree, at, work)
+        rows, missed = work.jacobian[limb, :3, columns], path.at(share)[0] - work.tip[limb]
+        if aligned:  # a turn about its z is free
+            direction_at(path.handle, share, direction)
+            across = size * work.tip_turn[limb, :, :2].T
+            rows = np.vstack((rows, across @ work.jacobian[limb, 3:, columns]))
+            missed = np.append(missed, across @ np.cross(work.tip_turn[limb, :, 2], direction))
+        lean = started + (k + 1) / len(shares) * (wanted - started) - joints
+        square = rows @ rows.T + (SINGULAR * size) ** 2 * np.eye(len(rows))
+        step = lean + rows.T @ np.linalg.solve(square, missed - rows @ lean)
+        joints += step * (LARGEST_STEP / max(float(np.abs(step).max()), LARGEST_STEP))
+        found[k] = joints
+    return found
 
 
 def _beside(body: LimbedBody, limb: int, normal: Floats) -> Iterator[tuple[Floats, Floats]]:
