@@ -27,6 +27,9 @@ SHARPEST = 0.1
 """Of an edge that a path goes around, one more than the cosine of its normals [-]."""
 PATH_JUMP = 0.5
 """Largest change of a joint from one posture on a lifted path to the next [rad] or [m]: beyond, postures between are solved, too."""
+LEAST_STRIDE = 4
+"""Parts of a path (`PATH_PARTS`) within which an aligned limb has to keep to `PATH_JUMP`, where others have one: a posture that can't turn
+its end effector as it is to, and that it would have to hurry by, leads to others for the same places, and the limb might take those."""
 PATH_NEAR = 1e-4
 PATH_REACHED = 1e-3
 """Per size of the robot."""
@@ -357,6 +360,7 @@ def swing_reach(robot, tables, body, limb, swing, before, lift, work):
     keep_way(robot, limb, work)
     lift_over(swing[0].place, swing[1].place, swing[0].normal, swing[1].normal, lift, up)
     room, parts, at = PATH_REACHED * robot.size, PATH_PARTS * PATH_POINTS, 0
+    least = LEAST_STRIDE if robot.aligned[limb] else 1
     while at < parts:
         for k in range(n):
             last[k] = posture[k]
@@ -369,7 +373,7 @@ def swing_reach(robot, tables, body, limb, swing, before, lift, work):
             jump = 0.0
             for k in range(n):
                 jump = max(jump, abs(posture[k] - last[k]))
-            if jump <= PATH_JUMP or stride == 1:
+            if jump <= PATH_JUMP or stride <= least:
                 break
             stride = (stride + 1) >> 1
         if jump > PATH_JUMP:
