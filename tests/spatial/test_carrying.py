@@ -44,6 +44,7 @@ from clamber.families.spatial.trials.law_trials import first_steps as short_plan
 from clamber.families.spatial.trials.law_trials import try_law
 from clamber.families.spatial.trials.planning import RESERVES, careful
 from clamber.families.spatial.trials.run_plan import SpatialRun, body_of, run_plan
+from clamber.planning.auto import plan_auto
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan
@@ -213,6 +214,15 @@ def test_a_limb_that_comes_off_while_another_lets_go_or_closes_is_taken_again(mo
     assert off and report.done, report.reason
     assert any("took it again" in motion.reason for motion in report.motions)
     assert report.off < 0.1 * body.pace.size
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 12, 18])
+def test_clamps_pass_singular_postures_and_other_limbs(seed: int) -> None:
+    """A wrist whipped by a posture in which it could not turn its clamp (1, 12), or a clamp closed on the other limb (18)."""
+    task = load_task("truss-inchworm", [f"world.seed={seed}"])
+    run: SpatialRun = run_plan(task, plan_auto(task).plan)
+    assert run.done, run.reason
 
 
 @pytest.mark.slow
