@@ -193,14 +193,12 @@ def see_pairs(handle, angle, fresh, far):
     for k in range(pairs.shape[0]):
         a, b = pairs[k]
         one, other = work.jobs[a], work.jobs[b]
-        if fresh:
-            lined[k] = -1
         if one.mode != STANCE or other.mode != STANCE:
             lined[k] = -1
         else:
             by_encoders = _direction(work.tips, a, b)
             by_outputs = _direction(work.settled_tips, a, b)
-            if lined[k, 0] != one.hold or lined[k, 1] != other.hold:
+            if fresh or lined[k, 0] != one.hold or lined[k, 1] != other.hold:
                 lined[k, 0], lined[k, 1] = one.hold, other.hold
                 lines[k, 0], lines[k, 1] = by_encoders, by_outputs
             least = min(least, _turn(by_encoders - lines[k, 0]), _turn(by_outputs - lines[k, 1]))

@@ -33,7 +33,8 @@ SAMPLES: Final = 33
 SINGULAR: Final = 0.01
 """A limb whose tip a turn of its joints moves by less than that part of its length is near a singularity [-]."""
 LARGEST_STEP: Final = 0.3
-"""Of a joint from one of these places to the next: near a singularity it lags behind and catches up, as under the law [rad] or [m]."""
+"""Of a joint that turns an end effector, from one of these places to the next: near a posture in which it can't, it lags behind and catches
+up, as under the law [rad] or [m]."""
 LEAST_SPEED: Final = 0.1
 """Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
@@ -238,7 +239,9 @@ def joints_along(body: LimbedBody, limb: int, path: TipPath, shares: Floats, pos
         lean = started + (k + 1) / len(shares) * (wanted - started) - joints
         square = rows @ rows.T + (SINGULAR * size) ** 2 * np.eye(len(rows))
         step = lean + rows.T @ np.linalg.solve(square, missed - rows @ lean)
-        joints += step * (LARGEST_STEP / max(float(np.abs(step).max()), LARGEST_STEP))
+        if aligned:
+            step *= LARGEST_STEP / max(float(np.abs(step).max()), LARGEST_STEP)
+        joints += step
         found[k] = joints
     return found
 
