@@ -28,8 +28,8 @@ SHARPEST = 0.1
 PATH_JUMP = 0.5
 """Largest change of a joint from one posture on a lifted path to the next [rad] or [m]: beyond, postures between are solved, too."""
 LEAST_STRIDE = 4
-"""Parts of a path (`PATH_PARTS`) within which an aligned limb has to keep to `PATH_JUMP`, where others have one: a posture that can't turn
-its end effector as it is to, and that it would have to hurry by, leads to others for the same places, and the limb might take those."""
+"""Parts of a path (`PATH_PARTS`) within which a limb that is aligned may not jump, where others may not within one: it would hurry by a
+posture that can't turn its end effector as it is to, and could take another one for the same place behind it."""
 PATH_NEAR = 1e-4
 PATH_REACHED = 1e-3
 """Per size of the robot."""
