@@ -29,6 +29,43 @@ def rotate(turn, start, vector, out, at):
         )
 
 
+@inlined
+def three(row, at):
+    """Three numbers of a row, from `at` on."""
+    return row[at], row[at + 1], row[at + 2]
+
+
+@inlined
+def keep_three(row, at, vector):
+    """Write them there."""
+    for i in range(3):
+        row[at + i] = vector[i]
+
+
+@inlined
+def dot(a, b):
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+@inlined
+def plus_cross(a, b, c):
+    """The vector a + b x c."""
+    return a[0] + b[1] * c[2] - b[2] * c[1], a[1] + b[2] * c[0] - b[0] * c[2], a[2] + b[0] * c[1] - b[1] * c[0]
+
+
+@inlined
+def cross(b, c):
+    """The vector b x c."""
+    return b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]
+
+
+@inlined
+def way_between(start, start_at, end, end_at):
+    """From a place in one row to a place in another."""
+    return end[end_at] - start[start_at], end[end_at + 1] - start[start_at + 1], end[end_at + 2] - start[start_at + 2]
+
+
 @kernel
 def place_chain(joints, root, q, frames, tip):
     """Place every joint and the tip.
@@ -132,39 +169,37 @@ def fill_jacobian(joints, frames, tip, jacobian):
     """
     for j in range(joints.size):
         row = frames[j]
-        ax = row[AXIS]
-        ay = row[AXIS + 1]
-        az = row[AXIS + 2]
-        if joints[j].sliding:
-            jacobian[0, j] = ax
-            jacobian[1, j] = ay
-            jacobian[2, j] = az
-            jacobian[3, j] = 0.0
-            jacobian[4, j] = 0.0
-            jacobian[5, j] = 0.0
-            continue
-        dx = tip[0] - row[PLACE]
-        dy = tip[1] - row[PLACE + 1]
-        dz = tip[2] - row[PLACE + 2]
-        jacobian[0, j] = ay * dz - az * dy
-        jacobian[1, j] = az * dx - ax * dz
-        jacobian[2, j] = ax * dy - ay * dx
-        jacobian[3, j] = ax
-        jacobian[4, j] = ay
-        jacobian[5, j] = az
+        axis = three(row, AXIS)
+        slides = joints[j].sliding
+        moved = axis if slides else cross(axis, way_between(row, PLACE, tip, 0))
+        for i in range(3):
+            jacobian[i, j] = moved[i]
+            jacobian[3 + i, j] = 0.0 if slides else axis[i]
 
 
 @inlined
-def _spread(row, joint, x, y, z, out):
-    """Out = R I R^T (x, y, z): a link's inertia, base frame, on a vector."""
+def _spread(row, joint, vector):
+    """R I R^T v: a link's inertia, base frame, on a vector."""
+    x, y, z = vector
     lx = row[TURN] * x + row[TURN + 3] * y + row[TURN + 6] * z
     ly = row[TURN + 1] * x + row[TURN + 4] * y + row[TURN + 7] * z
     lz = row[TURN + 2] * x + row[TURN + 5] * y + row[TURN + 8] * z
     hx = joint.inertia[0, 0] * lx + joint.inertia[0, 1] * ly + joint.inertia[0, 2] * lz
     hy = joint.inertia[1, 0] * lx + joint.inertia[1, 1] * ly + joint.inertia[1, 2] * lz
     hz = joint.inertia[2, 0] * lx + joint.inertia[2, 1] * ly + joint.inertia[2, 2] * lz
-    for i in range(3):
-        out[i] = row[TURN + 3 * i] * hx + row[TURN + 3 * i + 1] * hy + row[TURN + 3 * i + 2] * hz
+    return (
+        row[TURN] * hx + row[TURN + 1] * hy + row[TURN + 2] * hz,
+        row[TURN + 3] * hx + row[TURN + 4] * hy + row[TURN + 5] * hz,
+        row[TURN + 6] * hx + row[TURN + 7] * hy + row[TURN + 8] * hz,
+    )
+
+
+@inlined
+def _carried(row, way):
+    """Acceleration of a point of a joint's link, over a way from the joint."""
+    spin = three(row, SPIN)
+    turning = plus_cross(three(row, ACCELERATION), three(row, SPIN_RATE), way)
+    return plus_cross(turning, spin, cross(spin, way))
 
 
 @kernel
@@ -188,77 +223,30 @@ def accelerate(joints, root, frames, tip, qd, qdd, with_gravity, tip_acceleratio
     g = root[0].gravity
     for j in range(n):
         row = frames[j]
-        if j == 0:
-            wx = 0.0
-            wy = 0.0
-            wz = 0.0
-            ux = 0.0
-            uy = 0.0
-            uz = 0.0
-            px = 0.0
-            py = 0.0
-            pz = 0.0
-        else:
+        w = (0.0, 0.0, 0.0)
+        u = (0.0, 0.0, 0.0)
+        p = (0.0, 0.0, 0.0)
+        if j > 0:
             before = frames[j - 1]
-            wx = before[SPIN]
-            wy = before[SPIN + 1]
-            wz = before[SPIN + 2]
-            ux = before[SPIN_RATE]
-            uy = before[SPIN_RATE + 1]
-            uz = before[SPIN_RATE + 2]
-            dx = row[PLACE] - before[PLACE]
-            dy = row[PLACE + 1] - before[PLACE + 1]
-            dz = row[PLACE + 2] - before[PLACE + 2]
-            cx = wy * dz - wz * dy
-            cy = wz * dx - wx * dz
-            cz = wx * dy - wy * dx
-            px = before[ACCELERATION] + uy * dz - uz * dy + wy * cz - wz * cy
-            py = before[ACCELERATION + 1] + uz * dx - ux * dz + wz * cx - wx * cz
-            pz = before[ACCELERATION + 2] + ux * dy - uy * dx + wx * cy - wy * cx
-        ax = row[AXIS]
-        ay = row[AXIS + 1]
-        az = row[AXIS + 2]
+            w = three(before, SPIN)
+            u = three(before, SPIN_RATE)
+            p = _carried(before, way_between(before, PLACE, row, PLACE))
+        axis = three(row, AXIS)
+        turned = cross(w, axis)
         v = qd[j]
         a = qdd[j]
-        if joints[j].sliding:
-            px += a * ax + 2.0 * v * (wy * az - wz * ay)
-            py += a * ay + 2.0 * v * (wz * ax - wx * az)
-            pz += a * az + 2.0 * v * (wx * ay - wy * ax)
-        else:
-            ux += a * ax + v * (wy * az - wz * ay)
-            uy += a * ay + v * (wz * ax - wx * az)
-            uz += a * az + v * (wx * ay - wy * ax)
-            wx += v * ax
-            wy += v * ay
-            wz += v * az
-        row[SPIN] = wx
-        row[SPIN + 1] = wy
-        row[SPIN + 2] = wz
-        row[SPIN_RATE] = ux
-        row[SPIN_RATE + 1] = uy
-        row[SPIN_RATE + 2] = uz
-        row[ACCELERATION] = px
-        row[ACCELERATION + 1] = py
-        row[ACCELERATION + 2] = pz
+        for i in range(3):
+            if joints[j].sliding:
+                row[SPIN + i] = w[i]
+                row[SPIN_RATE + i] = u[i]
+                row[ACCELERATION + i] = p[i] + (a * axis[i] + 2.0 * v * turned[i])
+            else:
+                row[SPIN + i] = w[i] + v * axis[i]
+                row[SPIN_RATE + i] = u[i] + (a * axis[i] + v * turned[i])
+                row[ACCELERATION + i] = p[i]
     last = frames[n - 1]
-    dx = tip[0] - last[PLACE]
-    dy = tip[1] - last[PLACE + 1]
-    dz = tip[2] - last[PLACE + 2]
-    wx = last[SPIN]
-    wy = last[SPIN + 1]
-    wz = last[SPIN + 2]
-    ux = last[SPIN_RATE]
-    uy = last[SPIN_RATE + 1]
-    uz = last[SPIN_RATE + 2]
-    cx = wy * dz - wz * dy
-    cy = wz * dx - wx * dz
-    cz = wx * dy - wy * dx
-    tip_acceleration[0] = last[ACCELERATION] + uy * dz - uz * dy + wy * cz - wz * cy
-    tip_acceleration[1] = last[ACCELERATION + 1] + uz * dx - ux * dz + wz * cx - wx * cz
-    tip_acceleration[2] = last[ACCELERATION + 2] + ux * dy - uy * dx + wx * cy - wy * cx
-    tip_acceleration[3] = ux
-    tip_acceleration[4] = uy
-    tip_acceleration[5] = uz
+    keep_three(tip_acceleration, 0, _carried(last, way_between(last, PLACE, tip, 0)))
+    keep_three(tip_acceleration, 3, three(last, SPIN_RATE))
     _carry_back(joints, g, frames, with_gravity, torques)
     for j in range(n):
         torques[j] += joints[j].rotor * qdd[j]
@@ -272,54 +260,25 @@ def _carry_back(joints, g, frames, with_gravity, torques):
     for j in range(n - 1, -1, -1):
         row = frames[j]
         joint = joints[j]
-        dx = row[CENTRE] - row[PLACE]
-        dy = row[CENTRE + 1] - row[PLACE + 1]
-        dz = row[CENTRE + 2] - row[PLACE + 2]
-        wx = row[SPIN]
-        wy = row[SPIN + 1]
-        wz = row[SPIN + 2]
-        ux = row[SPIN_RATE]
-        uy = row[SPIN_RATE + 1]
-        uz = row[SPIN_RATE + 2]
-        cx = wy * dz - wz * dy
-        cy = wz * dx - wx * dz
-        cz = wx * dy - wy * dx
-        fx = joint.mass * (row[ACCELERATION] + uy * dz - uz * dy + wy * cz - wz * cy - weight * g[0])
-        fy = joint.mass * (row[ACCELERATION + 1] + uz * dx - ux * dz + wz * cx - wx * cz - weight * g[1])
-        fz = joint.mass * (row[ACCELERATION + 2] + ux * dy - uy * dx + wx * cy - wy * cx - weight * g[2])
-        held = row[MOMENT : MOMENT + 3]
-        _spread(row, joint, wx, wy, wz, held)
-        hx = held[0]
-        hy = held[1]
-        hz = held[2]
-        _spread(row, joint, ux, uy, uz, held)
-        mx = held[0] + wy * hz - wz * hy + dy * fz - dz * fy
-        my = held[1] + wz * hx - wx * hz + dz * fx - dx * fz
-        mz = held[2] + wx * hy - wy * hx + dx * fy - dy * fx
+        arm = way_between(row, PLACE, row, CENTRE)
+        moved = _carried(row, arm)
+        f = (
+            joint.mass * (moved[0] - weight * g[0]),
+            joint.mass * (moved[1] - weight * g[1]),
+            joint.mass * (moved[2] - weight * g[2]),
+        )
+        spin = three(row, SPIN)
+        turning = plus_cross(_spread(row, joint, three(row, SPIN_RATE)), spin, _spread(row, joint, spin))
+        m = plus_cross(turning, arm, f)
         if j + 1 < n:
             after = frames[j + 1]
-            ex = after[PLACE] - row[PLACE]
-            ey = after[PLACE + 1] - row[PLACE + 1]
-            ez = after[PLACE + 2] - row[PLACE + 2]
-            gx = after[FORCE]
-            gy = after[FORCE + 1]
-            gz = after[FORCE + 2]
-            mx += after[MOMENT] + ey * gz - ez * gy
-            my += after[MOMENT + 1] + ez * gx - ex * gz
-            mz += after[MOMENT + 2] + ex * gy - ey * gx
-            fx += gx
-            fy += gy
-            fz += gz
-        row[FORCE] = fx
-        row[FORCE + 1] = fy
-        row[FORCE + 2] = fz
-        row[MOMENT] = mx
-        row[MOMENT + 1] = my
-        row[MOMENT + 2] = mz
-        if joint.sliding:
-            torques[j] = fx * row[AXIS] + fy * row[AXIS + 1] + fz * row[AXIS + 2]
-        else:
-            torques[j] = mx * row[AXIS] + my * row[AXIS + 1] + mz * row[AXIS + 2]
+            outer = three(after, FORCE)
+            held = plus_cross(three(after, MOMENT), way_between(row, PLACE, after, PLACE), outer)
+            m = (m[0] + held[0], m[1] + held[1], m[2] + held[2])
+            f = (f[0] + outer[0], f[1] + outer[1], f[2] + outer[2])
+        keep_three(row, FORCE, f)
+        keep_three(row, MOMENT, m)
+        torques[j] = dot(f if joint.sliding else m, three(row, AXIS))
 
 
 @kernel
@@ -328,7 +287,7 @@ def fill_inertia(joints, frames, inertia):
 
     Args:
         joints: Records of `JOINT`, shape (n,).
-        frames: As `place_chain` left them; the moving columns are overwritten.
+        frames: As `place_chain` left them.
         inertia: Filled, shape (n, n) [kg m^2].
     """
     n = joints.size
@@ -342,47 +301,19 @@ def fill_inertia(joints, frames, inertia):
             continue
         for i in range(k + 1):
             row = frames[i]
-            ax = row[AXIS]
-            ay = row[AXIS + 1]
-            az = row[AXIS + 2]
-            if joints[i].sliding:
-                vx = ax
-                vy = ay
-                vz = az
-            else:
-                dx = body[CENTRE] - row[PLACE]
-                dy = body[CENTRE + 1] - row[PLACE + 1]
-                dz = body[CENTRE + 2] - row[PLACE + 2]
-                vx = ay * dz - az * dy
-                vy = az * dx - ax * dz
-                vz = ax * dy - ay * dx
-            held = row[FORCE : FORCE + 3]  # linear momentum per unit speed of joint i
-            held[0] = link.mass * vx
-            held[1] = link.mass * vy
-            held[2] = link.mass * vz
-            turned = row[MOMENT : MOMENT + 3]
-            if joints[i].sliding:
-                turned[0] = 0.0
-                turned[1] = 0.0
-                turned[2] = 0.0
-            else:
-                _spread(body, link, ax, ay, az, turned)
+            slides = joints[i].sliding
+            axis = three(row, AXIS)
+            moved = axis if slides else cross(axis, way_between(row, PLACE, body, CENTRE))
+            # momenta per unit speed of joint i
+            held = (link.mass * moved[0], link.mass * moved[1], link.mass * moved[2])
+            turned = (0.0, 0.0, 0.0) if slides else _spread(body, link, axis)
             for j in range(i + 1):
                 other = frames[j]
-                bx = other[AXIS]
-                by = other[AXIS + 1]
-                bz = other[AXIS + 2]
+                axis = three(other, AXIS)
                 if joints[j].sliding:
-                    part = bx * held[0] + by * held[1] + bz * held[2]
+                    part = dot(axis, held)
                 else:
-                    dx = body[CENTRE] - other[PLACE]
-                    dy = body[CENTRE + 1] - other[PLACE + 1]
-                    dz = body[CENTRE + 2] - other[PLACE + 2]
-                    ux = by * dz - bz * dy
-                    uy = bz * dx - bx * dz
-                    uz = bx * dy - by * dx
-                    part = ux * held[0] + uy * held[1] + uz * held[2]
-                    part += bx * turned[0] + by * turned[1] + bz * turned[2]
+                    part = dot(cross(axis, way_between(other, PLACE, body, CENTRE)), held) + dot(axis, turned)
                 inertia[i, j] += part
                 if i != j:
                     inertia[j, i] += part
