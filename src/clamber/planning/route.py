@@ -25,14 +25,14 @@ from .route_kernels import (
     JUDGED,
     LOWEST,
     NODES,
+    ROUGH,
     RUNNING,
     Guide,
     Nodes,
     plant,
-    rehash_rough,
     search,
 )
-from .stance_table import path_to, scratch_for, table_size
+from .stance_table import path_to, rehash, scratch_for, table_size
 
 QUOTA: Final = 5000
 """Stances expanded between looks at the clock."""
@@ -89,7 +89,7 @@ class _Memory:
             longer[name] = np.zeros((capacity, *old.shape[1:]), old.dtype)
             longer[name][: len(old)] = old
         self.all = self.all._replace(table=np.full(table_size(capacity), -1, np.int32), **longer)
-        rehash_rough(self.all.keys, used, self.all.table)
+        rehash(self.all.keys, used, self.all.table, ROUGH)
 
 
 def climb(

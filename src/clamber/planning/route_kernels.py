@@ -8,14 +8,12 @@ import numpy as np
 from ..compiled import inlined, kernel
 from ..types import Floats, Ints
 from .problem.family_kernels import candidates, done, draft, key, restore, step
-from .problem.randoms import scramble
+from .stance_table import slot_of
 
 RUNNING, FOUND, EXHAUSTED, FULL = 0, 1, 2, 3
 NONE = -1
 NODES, LOWEST, EXPANDED, JUDGED, GOAL, BEST = range(6)
 """Entries of a search's `state`."""
-POSE = 3
-"""The first words of a key: place and angle of the body, in ticks."""
 ROUGH = 18
 """Poses are told apart to 2^18 ticks, a quarter of a step: off the lattice, after hangs, there is no end of poses that hardly differ."""
 
@@ -61,39 +59,6 @@ class Guide(NamedTuple):
 
 
 @inlined
-def rough(words, i):
-    """A word of a key as the search compares it."""
-    return (words[i] + (1 << (ROUGH - 1))) >> ROUGH if i < POSE else words[i]
-
-
-@inlined
-def rough_slot(words, table, keys):
-    """Where a stance is in the hash table, or the empty slot where it belongs; keys are compared whole, but for the grain of poses."""
-    value = np.uint64(0)
-    for i in range(words.shape[0]):
-        value = scramble(value ^ np.uint64(rough(words, i)))
-    slot = np.int64(value & np.uint64(table.shape[0] - 1))
-    while table[slot] >= 0:
-        node = table[slot]
-        same = True
-        for i in range(words.shape[0]):
-            if rough(keys[node], i) != rough(words, i):
-                same = False
-                break
-        if same:
-            return slot
-        slot = (slot + 1) & (table.shape[0] - 1)
-    return slot
-
-
-@kernel
-def rehash_rough(keys, n, table):
-    """Fill an empty hash table with the first n keys."""
-    for node in range(n):
-        table[rough_slot(keys[node], table, keys)] = node
-
-
-@inlined
 def place_of(s, fields, frame):
     """Row and column of the map's place that the body is at."""
     column = min(max(int(math.floor((s.x - frame[0]) / frame[2] + 0.5)), 0), fields.shape[2] - 1)
@@ -133,7 +98,7 @@ def plant(p, start, nodes, guide):
     following[0] = NONE
     f = bucket_of(0, way[0], guide.weight, heads.shape[0])
     heads[f] = 0
-    table[rough_slot(keys[0], table, keys)] = 0
+    table[slot_of(keys[0], table, keys, ROUGH)] = 0
     return f
 
 
@@ -185,7 +150,7 @@ def search(p, nodes, guide, state, room, tally, quota):
             late = draft(p, stances[0], codes[c], stances[1])
             if late > 0:
                 key(p, stances[1], words)
-                if table[rough_slot(words, table, keys)] >= 0:
+                if table[slot_of(words, table, keys, ROUGH)] >= 0:
                     continue
             if late < 0:
                 continue
@@ -195,7 +160,7 @@ def search(p, nodes, guide, state, room, tally, quota):
                 tally[reason] += 1
                 continue
             key(p, stances[1], words)
-            slot = rough_slot(words, table, keys)
+            slot = slot_of(words, table, keys, ROUGH)
             if table[slot] >= 0:
                 continue
             child = state[NODES]

@@ -11,6 +11,9 @@ from .problem.randoms import scramble
 if TYPE_CHECKING:
     from .problem.problem import CompiledProblem
 
+POSE = 3
+"""The first words of a key: place and angle of the body, in ticks."""
+
 
 class Scratch(NamedTuple):
     """Where a search looks at stances and their children."""
@@ -39,17 +42,23 @@ def scratch_for(problem: "CompiledProblem", stances: int = 2, *, keys: int | Non
 
 
 @inlined
-def slot_of(words, table, keys):
+def _word(words, i, grain):
+    """A word of a key as it is told apart: places and angles of the body, in ticks, to 2^grain of them."""
+    return (words[i] + (1 << (grain - 1))) >> grain if grain and i < POSE else words[i]
+
+
+@inlined
+def slot_of(words, table, keys, grain=0):
     """Where a key is in the hash table, or the empty slot where it belongs (whole keys are compared, never hashes alone)."""
     value = np.uint64(0)
     for i in range(words.shape[0]):
-        value = scramble(value ^ np.uint64(words[i]))
+        value = scramble(value ^ np.uint64(_word(words, i, grain)))
     slot = np.int64(value & np.uint64(table.shape[0] - 1))
     while table[slot] >= 0:
         node = table[slot]
         same = True
         for i in range(words.shape[0]):
-            if keys[node, i] != words[i]:
+            if _word(keys[node], i, grain) != _word(words, i, grain):
                 same = False
                 break
         if same:
@@ -59,10 +68,10 @@ def slot_of(words, table, keys):
 
 
 @kernel
-def rehash(keys, n, table):
+def rehash(keys, n, table, grain=0):
     """Fill an empty hash table with the first n keys."""
     for node in range(n):
-        table[slot_of(keys[node], table, keys)] = node
+        table[slot_of(keys[node], table, keys, grain)] = node
 
 
 def table_size(entries: int) -> int:
