@@ -8,6 +8,7 @@ from typing import cast
 import numpy as np
 import pytest
 
+from clamber.families.climber.control.planar_limb import HANG, LIMB_TASK
 from clamber.families.climber.execution import actor, hook
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
@@ -129,8 +130,8 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
         q[0, 0] = min(q[0, 0], stop)
         ticks, farthest = ticks + 1, max(farthest, float(np.abs(task.angles - q[0]).max()))
 
-    body = SimpleNamespace(tasks=[task], q=q, play=np.zeros((1, 2)), pose=np.zeros(3))
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
+    body = hanging_body(task, q)
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, holding=list)
     came = follow(cast(Climber, climber), 0, np.array(((0.0, 0.0), (0.8, -0.4))))
     assert came == (stop > 0.8)
     assert farthest < LAG[1] + 0.01
@@ -138,6 +139,14 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
     np.testing.assert_allclose(task.angles, (0.8, -0.4) if came else q[0], atol=1e-12)
     np.testing.assert_array_equal(task.rates, 0.0)
     np.testing.assert_array_equal(task.accelerations, 0.0)
+
+
+def hanging_body(task: LimbTask, q: Floats) -> SimpleNamespace:
+    """What a free limb that goes along a way knows of a body that hangs on another one."""
+    jobs = np.zeros(2, LIMB_TASK)
+    jobs["mode"][1] = HANG
+    work = SimpleNamespace(pose=np.zeros(3), aimed=np.zeros(3), jobs=jobs)
+    return SimpleNamespace(tasks=[task], q=q, play=np.zeros((1, 2)), work=work)
 
 
 @pytest.mark.parametrize("seed", range(6))
@@ -152,8 +161,8 @@ def test_no_joint_is_sped_up_beyond_what_its_motor_and_the_body_bear(seed: int) 
         assert np.abs(task.accelerations).max() <= SURGE * (1.0 + 1e-9)
         rates.append(task.rates.copy())
 
-    body = SimpleNamespace(tasks=[task], q=q, play=np.zeros((1, 2)), pose=np.zeros(3))
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, hangs=True, holding=list)
+    body = hanging_body(task, q)
+    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, holding=list)
     assert follow(cast(Climber, climber), 0, way)
     # the change of pace at a corner comes to it
     assert np.abs(np.diff(rates, axis=0)).max() / 0.005 < 1.6 * SURGE

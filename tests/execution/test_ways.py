@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.control.limb_chain import legs_of
-from clamber.families.climber.control.swing_path import BESIDE, find_way
+from clamber.families.climber.control.swing_path import BESIDE, FAR, clearances, find_way
 from clamber.families.climber.execution.approach import (
     CELLS,
     HOOK,
@@ -121,12 +121,35 @@ def test_a_limb_squeezes_past_a_peg_where_the_body_goes_whatever_comes_of_it(
     start = np.array((0.221 + off[0], 0.202 + off[1], 1.31))
     poses = poses_between(start, np.array((0.229, 0.381, 1.309)))
     assert park(ways, RIGHT, q, poses, holds) is None
-    way = park(ways, RIGHT, q, poses, holds, clearances=TIGHT)
+    way = park(ways, RIGHT, q, poses, holds, margins=TIGHT)
     assert way is not None
     assert min(least_room(ways.robot, RIGHT, way[-1], pose, holds) for pose in poses) > SPARE
     for a, b in pairwise(way):
         for u in np.linspace(0.0, 1.0, 20):  # it may touch where the peg might be, not where it is believed
             assert least_room(ways.robot, RIGHT, a + u * (b - a), poses[0], holds) > 0.0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_clearance_of_a_limb_is_its_distance_from_the_nearest_peg_and_side_of_the_body(seed: int) -> None:
+    """Against points a millimetre apart; what the kernel leaves out as too far away must never be the nearest."""
+    ways, rng = approaches(), np.random.default_rng(seed)
+    leg, robot, pose = ways.legs[RIGHT], ways.robot, np.zeros(3)
+    holds = {k: place for k, place in enumerate(rng.uniform(-0.35, 0.35, (int(rng.integers(0, 12)), 2)))}
+    angles = rng.uniform(-np.pi, np.pi, (60, 2))
+    discs, rooms = discs_near(holds, pose, lambda _: PEG), np.empty(len(angles))
+    clearances(leg, angles, discs, np.empty((0, 5)), robot.link_radius, HOOK, rooms)
+    expected = [least_room(robot, RIGHT, q, pose, holds) if holds else FAR for q in angles]
+    np.testing.assert_allclose(rooms, expected, atol=4e-4)
+    walls = np.column_stack((rng.uniform(-0.5, 0.5, (3, 4)), np.full(3, PEG)))
+    clearances(leg, angles, np.empty((0, 3)), walls, robot.link_radius, np.zeros(2), rooms)
+    along = np.linspace(0.0, 1.0, 300)[:, None]
+    for q, room in zip(angles, rooms, strict=True):
+        first, second = leg["port_angle"] + q[0], leg["port_angle"] + q.sum() + leg["beta"]
+        elbow = np.array((leg["port_x"] + leg["l1"] * np.cos(first), leg["port_y"] + leg["l1"] * np.sin(first)))
+        link = elbow + leg["l2"] * along * np.array((np.cos(second), np.sin(second)))
+        sides = np.concatenate([side[:2] + along * (side[2:4] - side[:2]) for side in walls])
+        apart = np.hypot(*(link[:, None] - sides[None]).transpose(2, 0, 1)).min()
+        assert room == pytest.approx(apart - robot.link_radius - PEG, abs=2e-3)
 
 
 def test_a_limb_with_room_stays_where_it_is() -> None:

@@ -278,3 +278,26 @@ def see_signs(handle):
     if off > ASTRAY or abs(work.pose[2] - work.aimed[2]) > TURNED:
         signs |= LOST
     return signs
+
+
+@kernel
+def see_push(handle):
+    """Whether a free limb may be pushing the body away: 2 where it is for sure, 1 where it is unless the body only sways, else 0.
+
+    Args:
+        handle: Holds the body's pose and its aim, shape (3,) each; records of `LIMB_TASK`; the least that the body has been off its aim,
+            changed, and how much more may be swaying, and is pushed for sure, shape (2,) each [m], [rad].
+    """
+    pose, aim, jobs, least, sways, surely = opened(handle)
+    for i in range(jobs.size):
+        if jobs[i].mode == HANG:
+            return 0
+    off = math.hypot(pose[0] - aim[0], pose[1] - aim[1])
+    aside = abs(pose[2] - aim[2])
+    least[0] = min(off, least[0])
+    least[1] = min(aside, least[1])
+    moved = off - least[0]
+    turned = aside - least[1]
+    if moved > surely[0] or turned > surely[1]:
+        return 2
+    return 1 if moved > sways[0] or turned > sways[1] else 0

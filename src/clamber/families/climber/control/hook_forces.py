@@ -63,16 +63,17 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
     dy = arms[b, 1] - arms[a, 1]
     length = max(math.hypot(dx, dy), 1e-6)
     line = (dx / length, dy / length, length)
+    lie = (_as_it_lies(legs[a], q[a], pose[2]), _as_it_lies(legs[b], q[b], pose[2]))
     wishes = (math.sin(WISHED_CONE), math.cos(WISHED_CONE), WISHED_PULL, WISHED_TORQUE)
     bounds = (math.sin(WIDEST_CONE), math.cos(WIDEST_CONE), LEAST_PULL, MOST_TORQUE)
-    count, easiest = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, wishes, cuts, forces)
+    count, easiest = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 0.0, wishes, cuts, forces)
     lam, margin = max_min_solution(cuts, count, easiest)
     part = 0.0
     if more[0] != 0.0 or more[1] != 0.0 or more[2] != 0.0:
-        count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 0.0, bounds, cuts, forces)
+        count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 0.0, bounds, cuts, forces)
         _, floor = max_min_solution(cuts, count, lam)
         floor = min(floor, 0.0)
-        count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, 1.0, bounds, cuts, forces)
+        count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 1.0, bounds, cuts, forces)
         whole, least = max_min_solution(cuts, count, lam)
         part = 1.0
         if least < floor:
@@ -81,7 +82,7 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
             whole = lam
             step = 0.5
             for _ in range(HALVINGS):
-                count, _ = _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, part + step, bounds, cuts, forces)
+                count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, part + step, bounds, cuts, forces)
                 found, least = max_min_solution(cuts, count, lam)
                 if least >= floor:
                     part += step
@@ -111,37 +112,37 @@ def _split(a, b, arms, line, wrench, more, part, forces):
 
 
 @kernel
-def _cut_pair(legs, q, a, b, pose, arms, line, wrench, more, part, wishes, cuts, forces):
-    """Fill the cuts of both limbs; how many, and the lambda with the least effort."""
+def _cut_pair(legs, lie, a, b, arms, line, wrench, more, part, wishes, cuts, forces):
+    """Fill the cuts of both limbs, by `_as_it_lies` of each; how many, and the lambda with the least effort."""
     _split(a, b, arms, line, wrench, more, part, forces)
     size = max(math.hypot(wrench[0], wrench[1]), 1.0)
     ux, uy, _ = line
-    count, slope, square = _add_cuts(legs[a], q[a], pose[2], forces[a], ux, uy, size, wishes, cuts, 0)
-    count, slope_b, square_b = _add_cuts(legs[b], q[b], pose[2], forces[b], -ux, -uy, size, wishes, cuts, count)
+    count, slope, square = _add_cuts(legs[a], lie[0], forces[a], ux, uy, size, wishes, cuts, 0)
+    count, slope_b, square_b = _add_cuts(legs[b], lie[1], forces[b], -ux, -uy, size, wishes, cuts, count)
     square += square_b
     return count, -(slope + slope_b) / square if square > FLAT else 0.0
 
 
 @inlined
-def _jacobian(leg, q, angle):
+def _as_it_lies(leg, q, angle):
+    """Jacobian of a limb's tip, row by row, and the direction in which its hook pulls, world frame."""
     first = angle + leg.port_angle + q[0]
     second = first + q[1] + leg.beta
     x2 = leg.l2 * math.cos(second)
     y2 = leg.l2 * math.sin(second)
-    return -leg.l1 * math.sin(first) - y2, -y2, leg.l1 * math.cos(first) + x2, x2
+    grab = angle + leg.port_angle + q[0] + q[1] + leg.hook_angle
+    return -leg.l1 * math.sin(first) - y2, -y2, leg.l1 * math.cos(first) + x2, x2, math.cos(grab), math.sin(grab)
 
 
 @inlined
-def _add_cuts(leg, q, angle, force, ux, uy, size, wishes, cuts, count):
-    """Cuts of one limb whose hold gives `force` + lambda (ux, uy); and of its effort in lambda half the slope at 0 and the square.
+def _add_cuts(leg, lies, force, ux, uy, size, wishes, cuts, count):
+    """Cuts of a limb, as it lies, whose hold gives `force` + lambda (ux, uy); of its effort in lambda half the slope at 0 and the square.
 
+    `lies`: see `_as_it_lies`.
     `wishes`: sine and cosine of the cone's half angle, pull along the grab direction [N], part of the motors' torque.
     """
     cone_sin, cone_cos, least_pull, torque_part = wishes
-    j00, j01, j10, j11 = _jacobian(leg, q, angle)
-    grab = angle + leg.port_angle + q[0] + q[1] + leg.hook_angle
-    gx = math.cos(grab)
-    gy = math.sin(grab)
+    j00, j01, j10, j11, gx, gy = lies
     # of the limb on its hold, along the grab direction and across it
     pull = -(gx * force[0] + gy * force[1])
     pull_rate = -(gx * ux + gy * uy)

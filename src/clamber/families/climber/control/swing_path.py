@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from ....compiled import inlined, kernel
+from ....compiled import inlined, kernel, opened
 
 FAR = 1e9
 PREFERRED = 0.03
@@ -18,15 +18,22 @@ DEAR = 8.0
 
 
 @inlined
-def segment_point(ax, ay, bx, by, px, py):
-    """Distance of a point from a segment."""
+def foot_on(ax, ay, bx, by, px, py):
+    """The point of a segment that is nearest to another point."""
     dx = bx - ax
     dy = by - ay
     square = dx * dx + dy * dy
     t = 0.0
     if square > 0.0:
         t = min(1.0, max(0.0, ((px - ax) * dx + (py - ay) * dy) / square))
-    return math.hypot(ax + t * dx - px, ay + t * dy - py)
+    return ax + t * dx, ay + t * dy
+
+
+@inlined
+def segment_point(ax, ay, bx, by, px, py):
+    """Distance of a point from a segment."""
+    x, y = foot_on(ax, ay, bx, by, px, py)
+    return math.hypot(x - px, y - py)
 
 
 @inlined
@@ -60,6 +67,28 @@ def clearance(leg, t1, t2, discs, walls, link_radius, hook):
         walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
         link_radius, hook: Of the limb [m].
     """
+    return _clearance_up_to(leg, t1, t2, discs, walls, link_radius, hook, FAR)
+
+
+@kernel
+def clearances(leg, angles, discs, walls, link_radius, hook, rooms):
+    """`clearance` at joint angles, shape (n, 2) [rad], into `rooms`, shape (n,)."""
+    for k in range(rooms.size):
+        rooms[k] = clearance(leg, angles[k, 0], angles[k, 1], discs, walls, link_radius, hook)
+
+
+@inlined
+def _may_be_within(ax, ay, bx, by, half, px, py, distance):
+    """Whether a point may be so near to a segment, by the circle about both of its ends; `half` is half the segment's length."""
+    dx = 0.5 * (ax + bx) - px
+    dy = 0.5 * (ay + by) - py
+    far = half + distance + 1e-9  # rounding never leaves one out
+    return far > 0.0 and dx * dx + dy * dy < far * far
+
+
+@kernel
+def _clearance_up_to(leg, t1, t2, discs, walls, link_radius, hook, most):
+    """`clearance`, but `most` where there is more [m]: what is farther away than what has been seen is not looked at."""
     first = leg.port_angle + t1
     second = first + t2
     ex = leg.port_x + leg.l1 * math.cos(first)
@@ -69,21 +98,28 @@ def clearance(leg, t1, t2, discs, walls, link_radius, hook):
     grab = second + leg.hook_angle
     hx = tx + hook[1] * math.cos(grab)
     hy = ty + hook[1] * math.sin(grab)
-    least = FAR
+    least = most
     for k in range(discs.shape[0]):
         x = discs[k, 0]
         y = discs[k, 1]
         r = discs[k, 2]
-        least = min(least, segment_point(leg.port_x, leg.port_y, ex, ey, x, y) - link_radius - r)
-        least = min(least, segment_point(ex, ey, tx, ty, x, y) - link_radius - r)
-        least = min(least, math.hypot(hx - x, hy - y) - hook[0] - r)
+        if _may_be_within(leg.port_x, leg.port_y, ex, ey, 0.5 * leg.l1, x, y, least + link_radius + r):
+            least = min(least, segment_point(leg.port_x, leg.port_y, ex, ey, x, y) - link_radius - r)
+        if _may_be_within(ex, ey, tx, ty, 0.5 * leg.l2, x, y, least + link_radius + r):
+            least = min(least, segment_point(ex, ey, tx, ty, x, y) - link_radius - r)
+        if _may_be_within(hx, hy, hx, hy, 0.0, x, y, least + hook[0] + r):
+            least = min(least, math.hypot(hx - x, hy - y) - hook[0] - r)
     for k in range(walls.shape[0]):
-        least = min(
-            least,
-            segment_segment(ex, ey, tx, ty, walls[k, 0], walls[k, 1], walls[k, 2], walls[k, 3])
-            - link_radius
-            - walls[k, 4],
-        )
+        x = 0.5 * (walls[k, 0] + walls[k, 2])
+        y = 0.5 * (walls[k, 1] + walls[k, 3])
+        length = abs(walls[k, 2] - walls[k, 0]) + abs(walls[k, 3] - walls[k, 1])  # at most
+        if _may_be_within(ex, ey, tx, ty, 0.5 * (leg.l2 + length), x, y, least + link_radius + walls[k, 4]):
+            least = min(
+                least,
+                segment_segment(ex, ey, tx, ty, walls[k, 0], walls[k, 1], walls[k, 2], walls[k, 3])
+                - link_radius
+                - walls[k, 4],
+            )
     return least
 
 
@@ -122,6 +158,8 @@ def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, ho
     at_goal = min(least, clearance(leg, goal[0], goal[1], discs, walls, link_radius, hook) - TIGHTER)
     cost = np.full(size, FAR)
     came = np.full(size, -1, np.int64)
+    lengths = np.array(((0.0, pitch2), (pitch1, math.hypot(pitch1, pitch2))))
+    enough = max(PREFERRED, least)  # where there is more, how much makes no difference
     heap_cost = np.empty(8 * size)
     heap_node = np.empty(8 * size, np.int64)
     count = 1
@@ -146,15 +184,17 @@ def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, ho
                 if (di == 0 and dj == 0) or not (0 <= i + di < cells and 0 <= j + dj < cells):
                     continue
                 there = (i + di) * cells + j + dj
+                if cost[there] <= here_cost:
+                    continue
                 a = lower[0] + (i + di) * pitch1
                 b = lower[1] + (j + dj) * pitch2
                 if math.isnan(room[there]):
-                    room[there] = clearance(leg, a, b, discs, walls, link_radius, hook)
+                    room[there] = _clearance_up_to(leg, a, b, discs, walls, link_radius, hook, enough)
                 tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least, rises)
                 if tight and there != target and there != origin:
                     continue
                 lack = max(0.0, PREFERRED - room[there]) / PREFERRED
-                step = math.hypot(di * pitch1, dj * pitch2) * (1.0 + DEAR * lack * lack)
+                step = lengths[abs(di), abs(dj)] * (1.0 + DEAR * lack * lack)
                 if here_cost + step < cost[there]:
                     cost[there] = here_cost + step
                     came[there] = here
@@ -228,14 +268,16 @@ def _rise(costs, nodes, at):
 @kernel
 def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls, link_radius, hook):
     """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
+    enough = max(PREFERRED, least)
+    room = np.empty(length)
+    for k in range(length):
+        room[k] = _clearance_up_to(leg, path[k, 0], path[k, 1], discs, walls, link_radius, hook, PREFERRED)
     kept = 1
     at = 0
     while at < length - 1:
         best = at + 1
         for to in range(length - 1, at + 1, -1):
-            tight = PREFERRED
-            for k in range(at, to + 1):
-                tight = min(tight, clearance(leg, path[k, 0], path[k, 1], discs, walls, link_radius, hook))
+            tight = room[at : to + 1].min()
             tight = max(min(tight, 0.6 * PREFERRED), min(at_start, at_goal))
             free = True
             for k in range(1, 40):
@@ -243,7 +285,7 @@ def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls
                 a = path[at, 0] + part * (path[to, 0] - path[at, 0])
                 b = path[at, 1] + part * (path[to, 1] - path[at, 1])
                 floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least, rises)
-                if clearance(leg, a, b, discs, walls, link_radius, hook) < max(tight, floor) - 1e-6:
+                if _clearance_up_to(leg, a, b, discs, walls, link_radius, hook, enough) < max(tight, floor) - 1e-6:
                     free = False
                     break
             if free:
@@ -253,3 +295,63 @@ def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls
         kept += 1
         at = best
     return kept
+
+
+ON_WAY = np.dtype(
+    [
+        ("gone", "f8"),  # how far along the way, in its rows
+        ("speed", "f8"),  # part of full speed at which it goes
+        ("waited", "f8"),  # for how long it has been slowed down in all [s]
+        ("stands", "f8"),  # for how long it has stood nearly still [s]
+        ("period", "f8"),  # of a tick [s]
+        ("regained", "f8"),  # part of full speed that it comes back to in a tick
+        ("patience", "f8"),  # for how long it may be slowed down in all [s]
+        ("still", "f8"),  # part of full speed below which it stands nearly still
+        ("held", "f8"),  # standing for longer than this it is held by something [s]
+        ("lag", "f8", (2,)),  # behind by the first of these it is slowed down, by the second it stands [rad]
+        (
+            "square",
+            "f8",
+        ),  # exponent of a pace in accelerations, 2: a power of the C library's, which a product differs from in the last bit
+    ]
+)
+"""Where a limb is on its way."""
+IS_THERE, GOES, IS_HELD = range(3)
+
+
+@kernel
+def go_along(handle):
+    """Set the aims of a limb's joints for the next tick on a way, slower where the joints lag: IS_THERE, GOES, or IS_HELD by something.
+
+    Args:
+        handle: Holds a record of `ON_WAY`, changed, shape (1,); joint angles of the limb and how much their outputs lag, shape (2,) each
+            [rad]; rows of the way, the step from each to the next, rates and accelerations at full speed, shape (n, 2) each; and the part
+            of full speed at each row, shape (n,); aims, filled: angles, rates, accelerations, shape (3, 2); and the limb's record of
+            `LIMB_TASK`, filled with them, shape (1,).
+    """
+    ways, q, play, rows, steps, rates, surges, paces, aims, jobs = opened(handle)
+    way = ways[0]
+    if way.gone >= rows.shape[0] - 1:
+        return IS_THERE
+    # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
+    lag = max(abs(aims[0, 0] - q[0]), abs(aims[0, 1] - q[1])) if way.gone > 0.0 else 0.0
+    wished = 1.0
+    if way.waited < way.patience and lag > way.lag[0]:
+        wished = -1.0 / (way.lag[1] - way.lag[0]) * (lag - way.lag[0]) + 1.0 if lag < way.lag[1] else 0.0
+    way.speed = min(wished, way.speed + way.regained)
+    way.waited += (1.0 - way.speed) * way.period
+    way.stands = way.stands + way.period if wished < way.still else 0.0
+    if way.stands > way.held:
+        return IS_HELD
+    at = int(way.gone)
+    part = way.gone - at
+    pace = way.speed * paces[at]
+    for k in range(2):
+        aims[0, k] = rows[at, k] + part * steps[at, k] + play[k]  # the way is that of the joints' outputs
+        aims[1, k] = pace * rates[at, k]
+        aims[2, k] = math.pow(pace, way.square) * surges[at, k]
+        jobs[0].angles[k] = aims[0, k]
+        jobs[0].rates[k] = aims[1, k]
+        jobs[0].accelerations[k] = aims[2, k]
+    way.gone += pace
+    return GOES

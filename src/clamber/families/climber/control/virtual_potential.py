@@ -11,8 +11,9 @@ point is nearest, it acts along the line from the body's origin.
 
 import math
 
-from ....compiled import inlined, kernel
+from ....compiled import kernel
 from ....plane import inside
+from .swing_path import foot_on
 
 TOUCHING = 1e-9
 """Points nearer than this have no line between them [m]."""
@@ -65,18 +66,6 @@ def repel_limbs(legs, q, free, corners, skin, field, torques, gaps):
         torques[i, 1] += (px - ex) * fy - (py - ey) * fx
 
 
-@inlined
-def _foot(px, py, ax, ay, bx, by):
-    """The point of a segment that is nearest to another point."""
-    dx = bx - ax
-    dy = by - ay
-    square = dx * dx + dy * dy
-    t = 0.0
-    if square > 0.0:
-        t = min(1.0, max(0.0, ((px - ax) * dx + (py - ay) * dy) / square))
-    return ax + t * dx, ay + t * dy
-
-
 @kernel
 def _nearest_points(ax, ay, bx, by, corners):
     """Distance of a segment from a convex polygon [m], 0 inside, and the nearest points of segment and polygon."""
@@ -97,14 +86,14 @@ def _nearest_points(ax, ay, bx, by, corners):
         for end in range(2):
             x = ax if end == 0 else bx
             y = ay if end == 0 else by
-            fx, fy = _foot(x, y, cx, cy, dx, dy)
+            fx, fy = foot_on(cx, cy, dx, dy, x, y)
             if math.hypot(x - fx, y - fy) < best:
                 best = math.hypot(x - fx, y - fy)
                 px = x
                 py = y
                 nx = fx
                 ny = fy
-        fx, fy = _foot(cx, cy, ax, ay, bx, by)
+        fx, fy = foot_on(ax, ay, bx, by, cx, cy)
         if math.hypot(fx - cx, fy - cy) < best:
             best = math.hypot(fx - cx, fy - cy)
             px = fx

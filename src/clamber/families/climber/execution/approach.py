@@ -70,13 +70,11 @@ def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int]
     """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
     c, s = math.cos(pose[2]), math.sin(pose[2])
     away = np.array(list(holds.values())).reshape(-1, 2) - pose[:2]
-    near = np.hypot(away[:, 0], away[:, 1]) < NEARBY
-    out = [
-        (c * dx + s * dy, -s * dx + c * dy, radius(number))
-        for number, (dx, dy), is_near in zip(holds, away.tolist(), near, strict=True)
-        if is_near
-    ]
-    return np.array(out).reshape(-1, 3)
+    near = np.flatnonzero(np.hypot(away[:, 0], away[:, 1]) < NEARBY)
+    numbers, (dx, dy) = list(holds), away[near].T
+    out = np.empty((len(near), 3))
+    out[:, 0], out[:, 1], out[:, 2] = c * dx + s * dy, -s * dx + c * dy, [radius(numbers[k]) for k in near]
+    return out
 
 
 def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:

@@ -81,13 +81,13 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     task.mode, task.pressed, task.tug = "contact_push", False, np.zeros(2)
     stage, still, tugged, phase, borne = "push", 0.0, 0.0, 0.0, 0.0
     seated, marks, anew = False, [-math.inf, -math.inf], 0
-    rested, apart = body.pose.tolist(), _apart(climber)
+    places, felt, speeds, grabs = body.in_world.tolist()
+    rested, apart = body.pose.tolist(), _apart(climber, felt, places)
     hangs = climber.hangs
     part, coaxing, coaxed = HANGING if hangs else 1.0, WIDE_DITHER, 0.0
     (gx, gy), (px, py) = g.tolist(), place.tolist()
     for _ in range(round(PATIENCE / period)):
-        ax, ay = body.grab_direction(i).tolist()
-        (bx, by, _), (x, y) = body.pose.tolist(), body.tip(i).tolist()
+        (bx, by, _), (x, y), (ax, ay) = body.pose.tolist(), places[i], grabs[i]
         size = PUSH + (TUG - PUSH) * min(tugged / TUG_RISE, 1.0)
         # what hangs swings aside with a pull, which takes nothing off its own hold; risen, it has gone far enough
         lifted = by - rested[1] if hangs else (rested[0] - bx) * gx + (rested[1] - by) * gy
@@ -98,7 +98,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         # a joint that crosses its play, or is wrongly believed to, is seen in one of both; a hook that slides, in both
         slid = min(
             math.sqrt((nx - wx) * (nx - wx) + (ny - wy) * (ny - wy))
-            for (nx, ny), (wx, wy) in zip(_apart(climber), apart, strict=True)
+            for (nx, ny), (wx, wy) in zip(_apart(climber, felt, places), apart, strict=True)
         )
         faded = min(ramp(lifted, LIFT, (1.0, 1 / 3)), ramp(slid, SLIDING, (1.0, 1 / 3)))
         size *= part * faded
@@ -108,18 +108,20 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
         if stage == "push":
             aside = -ay * (px - x) + ax * (py - y)
             side += min(max(STEERING[0] * aside, -STEERING[1]), STEERING[1]) if free > 0.0 else CENTRING * aside
-            task.pressed = task.pressed or free <= 0.0
+            if free <= 0.0 and not task.pressed:
+                task.pressed = True
         else:
             tugged += period
             part = min(1.0, part + period / YIELDING) if hangs else part
         # what does not go into motion is borne by what the hook meets, and the other limbs carry that much less
-        vx, vy = body.tip_speed(i).tolist()
+        vx, vy = speeds[i]
         borne += period / BORNE_TIME * (min(max(size - task.damping * (vx * ax + vy * ay), 0.0), size) - borne)
         task.tug = np.array((borne * ax, borne * ay))
         task.force = np.array((size * ax - side * ay, size * ay + side * ax))
         climber.tick()
+        places, felt, speeds, grabs = body.in_world.tolist()
         # the play is crossed without a motor that turns, and the belief about it lags: both must have come to rest
-        (fx, fy), (x, y) = body.felt_tip(i).tolist(), body.tip(i).tolist()
+        (fx, fy), (x, y) = felt[i], places[i]
         least = ADVANCE if stage == "push" else CREEP
         advanced = False
         for k, reached in enumerate((fx * gx + fy * gy, x * gx + y * gy)):
@@ -143,7 +145,7 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
                 seated = True
                 break
             # a weak push lets a hook rest on its flare: from where the body is now, with all of it
-            rested, apart, still, anew = body.pose.tolist(), _apart(climber), 0.0, anew + 1
+            rested, apart, still, anew = body.pose.tolist(), _apart(climber, felt, places), 0.0, anew + 1
     if hangs and seated:
         task.force = np.array((size * ax, size * ay))
         return True
@@ -151,8 +153,8 @@ def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> 
     return seated
 
 
-def _apart(climber: Climber) -> list[list[float]]:
-    """One holding tip less another by the encoders alone, and with the play counted, world frame, shape (2, 2) [m]."""
-    body, holding = climber.body, climber.holding()
+def _apart(climber: Climber, *beliefs: list[list[float]]) -> list[list[float]]:
+    """One holding tip less another by each belief of where the tips are, world frame, shape (beliefs, 2) [m]."""
+    holding = climber.holding()
     i, j = holding[0], holding[-1]
-    return [(body.felt_tip(i) - body.felt_tip(j)).tolist(), (body.tip(i) - body.tip(j)).tolist()]
+    return [[tips[i][0] - tips[j][0], tips[i][1] - tips[j][1]] for tips in beliefs]

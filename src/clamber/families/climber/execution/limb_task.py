@@ -54,8 +54,9 @@ class LimbTask:
     def __setattr__(self, name: str, value: Any) -> None:
         """Assign, and let the compiled tick read it."""
         object.__setattr__(self, name, value)
-        if name in self._read:
-            self._read[name][:] = LIMB_MODES[value] if name == "mode" else value
+        read = self._read.get(name)
+        if read is not None:
+            read[:] = LIMB_MODES[value] if name == "mode" else value
 
     def attach(self, records: Records, i: int) -> None:
         """Let record `i` of `LIMB_TASK` be what this is, from now on."""

@@ -1,13 +1,14 @@
 """Motions that all actions are made of: the body on smooth ways, free limbs out of its way, tips and joints of limbs."""
 
 import math
-import operator
 from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....types import Floats
+from ..control.swing_path import GOES, IS_HELD, IS_THERE, ON_WAY, go_along
 from .climber import Climber
 from .parking import SPARE, TIGHT, park, passes, poses_between, room_along
 from .postures import postures
@@ -260,33 +261,19 @@ def follow(
     surges = np.diff(rates, axis=0, append=0.0) / period
     paces = _round_corners(surges, window)
     task.mode = "swing_joint"
-    body = climber.body
-    q, play, waited, gone, last = body.q[i], body.play[i], 0.0, 0.0, len(smooth) - 1
-    aims, steps = [0.0, 0.0], np.diff(smooth, axis=0)
-    stands, speed, watch = 0.0, 1.0, PushedBody(climber, brisk=most >= JOINT_SPEED)
-    while gone < last:
-        # a limb that lags with one joint more than the other leaves its way, and knocks against what it was to go round
-        lag = max(map(abs, map(operator.sub, aims, q.tolist()))) if gone else 0.0
-        wished = ramp(lag, lags, (1.0, 0.0)) if waited < WAITING else 1.0
-        speed = min(wished, speed + period / REGAINING)
-        waited += (1.0 - speed) * period
-        pace = speed * paces.item(int(gone))
-        stands = stands + period if wished < STANDS[0] else 0.0
-        if stands > STANDS[1]:
-            task.stay(q)
-            return False
-        k, part = divmod(gone, 1.0)
-        at = int(k)
-        # the way is that of the joints' outputs
-        task.angles = smooth[at] + part * steps[at] + play
-        task.rates, task.accelerations = pace * rates[at], pace**2 * surges[at]
-        aims = task.angles.tolist()
-        gone += pace
+    body, aims = climber.body, np.zeros((3, 2))
+    task.angles, task.rates, task.accelerations = aims
+    on_way = np.zeros(1, ON_WAY)
+    on_way[0] = 0.0, 1.0, 0.0, 0.0, period, period / REGAINING, WAITING, *STANDS, lags, 2.0
+    joints = body.q[i], body.play[i], smooth, np.diff(smooth, axis=0), rates, surges, paces
+    go = ready(go_along, Handle(on_way, *joints, aims, body.work.jobs[i : i + 1]))
+    watch = PushedBody(climber, brisk=most >= JOINT_SPEED)
+    while (state := go()) == GOES:
         climber.tick()
         if watch.gives_way(i):
             return False
-    task.stay(way[-1] + body.play[i])
-    return True
+    task.stay(body.q[i] if state == IS_HELD else way[-1] + body.play[i])
+    return bool(state == IS_THERE)
 
 
 def _round_corners(surges: Floats, window: Floats) -> Floats:

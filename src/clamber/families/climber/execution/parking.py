@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..control.swing_path import clearance, find_way
+from ..control.swing_path import clearance, clearances, find_way
 from .approach import CELLS, HOOK, LEAST_CLEARANCE, Approaches, discs_near
 
 SPARE: Final = 0.012
@@ -58,7 +58,7 @@ def park(
     poses: Sequence[Floats],
     holds: Mapping[int, Floats],
     spare: float = SPARE,
-    clearances: Sequence[float] = (LEAST_CLEARANCE,),
+    margins: Sequence[float] = (LEAST_CLEARANCE,),
 ) -> Floats | None:
     """A way of a free limb's joints to where it may wait, shape (n, 2) [rad]; None where it is well placed, or there is none better.
 
@@ -69,34 +69,30 @@ def park(
         poses: Of the body along its way, the present one first.
         holds: All holds by number.
         spare: Clearance with which it is well placed [m].
-        clearances: That the way keeps but where it begins with less, the first with which there is one [m].
+        margins: Clearances that the way keeps but where it begins with less, the first with which there is one [m].
     """
     limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
     seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
-    every = np.concatenate(seen)
-
-    def room(q: Floats) -> float:
-        return float(clearance(leg, q[0], q[1], every, approaches.wall, robot.link_radius, HOOK))
-
-    here = room(angles)
+    obstacles = np.concatenate(seen), approaches.wall, robot.link_radius, HOOK
+    here = float(clearance(leg, angles[0], angles[1], *obstacles))
     if here >= spare:
         return None
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-    grid = [
-        np.array((a, b)) for a in np.linspace(lower[0], upper[0], PITCH) for b in np.linspace(lower[1], upper[1], PITCH)
-    ]
-    rooms = [room(q) for q in grid]
-    enough = min(spare, max(rooms))
+    shoulders, elbows = (np.linspace(low, high, PITCH) for low, high in zip(lower, upper, strict=True))
+    grid = np.stack(np.meshgrid(shoulders, elbows, indexing="ij"), axis=-1).reshape(-1, 2)
+    rooms = np.empty(len(grid))
+    clearances(leg, grid, *obstacles, rooms)
+    enough = min(spare, float(rooms.max()))
     if enough <= here:
         return None
-    fit = [q for q, free in zip(grid, rooms, strict=True) if free >= enough - 1e-9]
-    path = approaches.path
-    near = sorted(fit, key=lambda q: float(np.abs(q - angles).max()))[:8]
-    for least, goal in product(clearances, near):
+    fit = grid[rooms >= enough - 1e-9]
+    near = fit[np.argsort(np.abs(fit - angles).max(axis=1), kind="stable")[:8]]
+    for least, goal in product(margins, near):
         count = find_way(
-            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, least, path
+            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, least,
+            approaches.path,
         )  # fmt: skip
         if count:
-            return path[:count].copy()
+            return approaches.path[:count].copy()
     return None

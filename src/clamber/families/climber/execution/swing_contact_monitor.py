@@ -3,6 +3,10 @@
 import math
 from typing import Final
 
+import numpy as np
+
+from ....compiled import Handle, ready
+from ..control.felt_force import see_push
 from .climber import Climber
 
 MOVED: Final = (0.002, 0.003)
@@ -28,9 +32,11 @@ class PushedBody:
     """
 
     def __init__(self, climber: Climber, *, brisk: bool = False) -> None:
-        self._climber, self._brisk = climber, brisk
-        self._off = (math.inf, math.inf)
-        """Least that the body has been off its aim [m], [rad]: what it learns of its holds moves its pose, and it then goes to its aim."""
+        self._climber, work = climber, climber.body.work
+        # the least that it has been off its aim: what it learns of its holds moves its pose, and it then goes to its aim
+        off, sways = np.full(2, math.inf), np.array((MOVED[brisk], TURNED[brisk]))
+        surely = np.full(2, math.inf) if brisk else np.array(IN_ANY_CASE)
+        self._see = ready(see_push, Handle(work.pose, work.aimed, work.jobs, off, sways, surely))
         self._held = [i for i in climber.holding() if self._pull(i) > HELD]
 
     def gives_way(self, i: int) -> bool:
@@ -40,26 +46,14 @@ class PushedBody:
             SlippedError: If a hook has come off.
             FallenError: If the robot falls.
         """
-        if not self._is_pushed():
+        pushed = self._see()
+        if not pushed or (pushed == 1 and all(self._pull(i) >= LOOSE for i in self._held)):
             return False
         body = self._climber.body
         body.tasks[i].give_way()
         self._climber.wait(COMES_BACK)
         body.tasks[i].stay(body.q[i])
         return True
-
-    def _is_pushed(self) -> bool:
-        if self._climber.hangs:
-            return False
-        body = self._climber.body
-        (x, y, angle), (aimed_x, aimed_y, aimed) = body.pose.tolist(), body.aim.tolist()
-        off, aside = math.hypot(x - aimed_x, y - aimed_y), abs(angle - aimed)
-        least = self._off = min(off, self._off[0]), min(aside, self._off[1])
-        moved, turned = off - least[0], aside - least[1]
-        if not self._brisk and (moved > IN_ANY_CASE[0] or turned > IN_ANY_CASE[1]):
-            return True
-        sways = moved > MOVED[self._brisk] or turned > TURNED[self._brisk]
-        return sways and any(self._pull(i) < LOOSE for i in self._held)
 
     def _pull(self, i: int) -> float:
         """With what the hook of limb `i` pulls along its grab direction [N]; infinite where that cannot be told."""

@@ -96,7 +96,10 @@ class WholeBody:
         self._weights = np.zeros(n)
         self._handed = np.array((1.0, period / HANDING_OVER))
         self._holds, self._cuts = np.zeros((n, 2)), np.zeros((MOST_CUTS, 2))
-        self._places, self._felt_places, self._place_speeds, self._grabs = np.zeros((4, n, 2))
+        self.in_world = np.zeros((4, n, 2))
+        """Of the tips, world frame: where they are with the play counted, and by the encoders alone [m], their speeds by those [m/s], and
+        where their hooks pull, unit vectors; all that a tick needs of them in one."""
+        self._places, self._felt_places, self._place_speeds, self._grabs = self.in_world
         self._lag = np.array((period / PLAY_TIME, self.backlash / 2, period / LOAD_TIME))
         drives = np.array([[law.buffers for law in laws] for laws in (self._pullers, self._reachers)])
         self.work: Final = BodyWork(
