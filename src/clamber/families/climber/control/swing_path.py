@@ -1,4 +1,4 @@
-"""A way for a free two-joint limb between two postures, past holds and body: Dijkstra on a grid of its joint angles. Kernels."""
+"""A way for a free two-joint limb past holds and body, by Dijkstra on a grid of its joint angles, and its joints' aims on it. Kernels."""
 
 import math
 
@@ -309,10 +309,7 @@ ON_WAY = np.dtype(
         ("still", "f8"),  # part of full speed below which it stands nearly still
         ("held", "f8"),  # standing for longer than this it is held by something [s]
         ("lag", "f8", (2,)),  # behind by the first of these it is slowed down, by the second it stands [rad]
-        (
-            "square",
-            "f8",
-        ),  # exponent of a pace in accelerations, 2: a power of the C library's, which a product differs from in the last bit
+        ("square", "f8"),  # 2, of a pace in accelerations: the C library's power, not a product, which rounds otherwise
     ]
 )
 """Where a limb is on its way."""
