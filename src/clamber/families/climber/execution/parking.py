@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..control.swing_path import clearance, clearances, find_way
+from ..control.swing_path import clearances, find_way
 from .approach import CELLS, HOOK, LEAST_CLEARANCE, Approaches, discs_near
 
 SPARE: Final = 0.012
@@ -33,9 +33,15 @@ def room_along(
     approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
 ) -> float:
     """Clearance of a limb, joints at angles, shape (2,) [rad], from all holds as the body goes along poses; negative: it meets one [m]."""
-    leg, robot = approaches.legs[i], approaches.robot
     every = np.concatenate([discs_near(holds, pose, approaches.peg_radius) for pose in poses])
-    return float(clearance(leg, angles[0], angles[1], every, approaches.wall, robot.link_radius, HOOK))
+    return float(_rooms(approaches, i, angles[None], every)[0])
+
+
+def _rooms(approaches: Approaches, i: int, angles: Floats, discs: Floats) -> Floats:
+    """Clearance of a limb from discs and body at each of its joint angles, shape (n, 2) [rad]; shape (n,) [m]."""
+    rooms = np.empty(len(angles))
+    clearances(approaches.legs[i], angles, discs, approaches.wall, approaches.robot.link_radius, HOOK, rooms)
+    return rooms
 
 
 def passes(
@@ -73,16 +79,14 @@ def park(
     """
     limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
     seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
-    obstacles = np.concatenate(seen), approaches.wall, robot.link_radius, HOOK
-    here = float(clearance(leg, angles[0], angles[1], *obstacles))
+    every = np.concatenate(seen)
+    here = float(_rooms(approaches, i, angles[None], every)[0])
     if here >= spare:
         return None
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-    shoulders, elbows = (np.linspace(low, high, PITCH) for low, high in zip(lower, upper, strict=True))
-    grid = np.stack(np.meshgrid(shoulders, elbows, indexing="ij"), axis=-1).reshape(-1, 2)
-    rooms = np.empty(len(grid))
-    clearances(leg, grid, *obstacles, rooms)
+    grid = np.stack(np.meshgrid(*np.linspace(lower, upper, PITCH).T, indexing="ij"), axis=-1).reshape(-1, 2)
+    rooms = _rooms(approaches, i, grid, every)
     enough = min(spare, float(rooms.max()))
     if enough <= here:
         return None
