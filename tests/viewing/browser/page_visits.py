@@ -2,16 +2,15 @@
 
 import math
 import time
-from pathlib import Path
 from typing import Any
 
 import numpy as np
+from page_pictures import take_picture
 
 from clamber.types import Floats
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.solids import FOV
 
-PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
 PATIENCE = 120_000  # [ms], far above what any step takes: pictures are drawn without a graphics card
 
 
@@ -38,10 +37,8 @@ class Visit:
 
     def picture(self, name: str) -> bytes:
         """Keep a picture of the page, and return that of its canvas."""
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        self.page.screenshot(path=PICTURES / f"viewer-{name}.png")
-        made: bytes = self.page.locator("canvas[data-engine]").screenshot()
-        return made
+        take_picture(self.page, f"viewer-{name}")
+        return take_picture(self.page.locator("canvas[data-engine]"))
 
     def says(self, words: str) -> None:
         """Wait until a text of ours has some words."""

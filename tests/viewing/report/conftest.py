@@ -1,13 +1,12 @@
 """Visits to the pages of reports in a real browser."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
-
-PICTURES = Path(__file__).resolve().parents[3] / "out" / "screenshots"
+from page_pictures import take_picture
 
 
 class Links(HTMLParser):
@@ -27,14 +26,16 @@ class Links(HTMLParser):
 
 
 @pytest.fixture
-def visit(chromium: Any) -> Callable[..., Any]:
+def visit(chromium: Any) -> Iterator[Callable[..., Any]]:
     """Opens a page from the disk in a browser that is offline: no warning on its console, every picture loaded, every link there."""
+    contexts = []
 
     def open_page(path: Path, picture: str, *, width: int = 1100, dark: bool = False) -> Any:
         messages: list[str] = []
         context = chromium.new_context(
             viewport={"width": width, "height": 900}, color_scheme="dark" if dark else "light", offline=True
         )
+        contexts.append(context)
         page = context.new_page()
         page.on("console", lambda message: messages.append(message.text) if message.type != "log" else None)
         page.on("pageerror", lambda error: messages.append(str(error)))
@@ -45,11 +46,12 @@ def visit(chromium: Any) -> Callable[..., Any]:
         widths = page.eval_on_selector_all("img", "all => all.map(one => one.naturalWidth)")
         assert all(width > 0 for width in widths)
         check_links(path)
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        page.screenshot(path=PICTURES / f"{picture}.png")
+        take_picture(page, picture)
         return page
 
-    return open_page
+    yield open_page
+    for context in contexts:
+        context.close()
 
 
 def check_links(path: Path) -> None:
