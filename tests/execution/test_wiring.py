@@ -8,18 +8,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from clamber.errors import SpecError
-from clamber.execution.hardware import Decoder, Reading, WiredClimber, WiredLimb
-from clamber.execution.plant import BodyPlant, BodySensed, LimbPlant
-from clamber.execution.wiring import COMMAND_LIMIT, Wiring
-from clamber.families.climber.execution.wiring import wiring_of, wiring_of_limb
+from clamber.execution.hardware import Decoder, Reading, WiredClimber
+from clamber.execution.plant import BodyPlant, BodySensed
+from clamber.execution.wiring import COMMAND_LIMIT
+from clamber.families.climber.execution.wiring import wiring_of
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.world.library import load_board
-from clamber.limb_bench.bench_limb import bench_limb
 from clamber.sim.limb_flaws import LimbFlaws
 from clamber.sim.plant_rules import PlantError
-from clamber.sim.plants import PLANTS
-from clamber.sim.wires import Amplifiers, ClimberWires, LimbWires
+from clamber.sim.wires import Amplifiers, ClimberWires
 from clamber.tasks.robots import load_robot
 from clamber.types import Floats, Ints
 from clamber.units import OZ_IN
@@ -144,33 +142,6 @@ def test_motors_through_wires_do_the_same() -> None:
         for a, b in zip(here, there, strict=True):
             # a last bit of torque moves an encoder by a count now and then, and its speed with it
             np.testing.assert_allclose(a, b, atol=2 * 200 / WIRING.resolution[-1])
-
-
-@pytest.mark.parametrize("name", PLANTS)
-def test_a_limb_through_wires_moves_as_without_them(name: str) -> None:
-    leg, flaws = bench_limb(), LimbFlaws(encoder_counts=400, delay=1)
-    wiring = wiring_of_limb(leg.robot, leg.robot.limb_names[0])
-    ends = []
-    plain = PLANTS[name](leg.chain, flaws, gears=leg.gears)
-    inner = PLANTS[name](leg.chain, flaws, gears=leg.gears)
-    wired: LimbPlant = WiredLimb(LimbWires(inner, wiring), wiring)
-    for plant in (plain, wired):
-        plant.reset(leg.q0)
-        truth = plant.truth()
-        for k in range(60):
-            sensed = plant.sense()
-            plant.actuate(np.array([[3.0 * math.sin(0.2 * k), 60.0 * math.cos(0.1 * k)]]))
-            plant.step()
-        ends.append((sensed.states.copy(), truth.states.copy(), truth.torques.copy()))
-    for a, b in zip(*ends, strict=True):
-        np.testing.assert_allclose(a, b, atol=200 / float(wiring.resolution.min()))
-
-
-def test_wiring_of_a_limb_is_its_part_of_the_whole() -> None:
-    robot = libra()
-    parts: list[Wiring] = [wiring_of_limb(robot, name) for name in robot.limb_names]
-    for key in ("torque_per_volt", "most_volts"):
-        assert np.array_equal(np.concatenate([getattr(part, key) for part in parts]), getattr(WIRING, key))
 
 
 def test_grippers_are_switches_behind_volts_and_counts() -> None:

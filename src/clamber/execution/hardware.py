@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 
 from ..types import Floats, Ints
-from .plant import BodySensed, BodyTruth, PausingPlant, Sensed, Truth
+from .plant import BodySensed, BodyTruth, PausingPlant
 from .wiring import Wiring
 
 
@@ -119,58 +119,3 @@ def body_truth(flat: Floats) -> BodyTruth:
     """What `flat_body_truth` made flat."""
     q, tips, torques = flat[3:].reshape(3, -1, 2)
     return BodyTruth(flat[:3], q, tips, torques)
-
-
-class WiredLimb:
-    """One limb driven through its wires. A `LimbPlant` with a batch of one; its wires carry no force sensors.
-
-    Args:
-        hardware: Of the limb.
-        wiring: Of its joints.
-    """
-
-    batch: int = 1
-
-    def __init__(self, hardware: Hardware, wiring: Wiring) -> None:
-        self.hardware, self.wiring, self.period = hardware, wiring, hardware.period
-        self._decoder = Decoder(wiring, hardware.period)
-        n = wiring.n_joints
-        self._sensed = Sensed(np.zeros((1, 2, n)), np.zeros((1, 6)), np.zeros((1, 6)))
-        self._truth = Truth(np.zeros((1, 2, n)), np.zeros((1, n)), np.zeros((1, 6)))
-
-    def reset(self, q: Floats) -> None:
-        """See `LimbPlant`."""
-        self._decoder.reset()
-        self.hardware.reset(np.ravel(q))
-        self._look()
-
-    def sense(self) -> Sensed:
-        """See `LimbPlant`."""
-        reading = self.hardware.sense()
-        self._sensed.states[0], self._sensed.number[0] = self._decoder.decode(reading), reading.tick
-        return self._sensed
-
-    def actuate(self, torques: Floats) -> None:
-        """See `LimbPlant`."""
-        self.hardware.actuate(self.wiring.volts(np.ravel(torques)))
-
-    def step(self) -> None:
-        """See `LimbPlant`."""
-        self.hardware.step()
-        self._look()
-
-    def truth(self) -> Truth:
-        """See `LimbPlant`."""
-        return self._truth
-
-    def _look(self) -> None:
-        flat, n = self.hardware.truth(), self.wiring.n_joints
-        if not len(flat):
-            return
-        self._truth.states[0] = flat[: 2 * n].reshape(2, n)
-        self._truth.torques[0], self._truth.wrenches[0] = flat[2 * n : 3 * n], flat[3 * n :]
-
-
-def flat_limb_truth(truth: Truth) -> Floats:
-    """States, torques, wrench of the one limb of a batch, one after the other, shape (3 n + 6,)."""
-    return np.concatenate((truth.states[0].ravel(), truth.torques[0], truth.wrenches[0]))

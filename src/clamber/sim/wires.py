@@ -4,8 +4,8 @@ from typing import Final
 
 import numpy as np
 
-from ..execution.hardware import Reading, flat_body_truth, flat_limb_truth
-from ..execution.plant import BodyPlant, LimbPlant
+from ..execution.hardware import Reading, flat_body_truth
+from ..execution.plant import BodyPlant
 from ..execution.wiring import COMMAND_LIMIT, Wiring, within
 from ..types import Floats
 from .plant_rules import PlantError
@@ -85,43 +85,3 @@ class ClimberWires:
         """See `Hardware`: pose, joint angles, tips, torques."""
         truth = self.plant.truth()
         return np.zeros(0) if truth is None else flat_body_truth(truth)
-
-
-class LimbWires:
-    """A simulated limb as `Hardware`; starts are joint angles.
-
-    Args:
-        plant: A batch of one, with encoders that count as `wiring` says.
-        wiring: Of the limb.
-        dac_bits: See `Amplifiers`.
-    """
-
-    def __init__(self, plant: LimbPlant, wiring: Wiring, *, dac_bits: int = 0) -> None:
-        assert plant.batch == 1
-        self.plant, self.wiring, self.period = plant, wiring, plant.period
-        self._amplifiers, self._tick = Amplifiers(wiring, dac_bits), 0
-
-    def reset(self, start: Floats) -> None:
-        """See `Hardware`."""
-        self.plant.reset(start)
-        self._tick = 0
-
-    def sense(self) -> Reading:
-        """See `Hardware`."""
-        return Reading(self.wiring.counts(self.plant.sense().states[0, 0]), self._tick)
-
-    def actuate(self, volts: Floats) -> None:
-        """See `Hardware`."""
-        self.plant.actuate(self._amplifiers.torques(volts)[None])
-
-    def pause(self) -> None:
-        """See `Hardware`: nothing to do, as time stands still meanwhile."""
-
-    def step(self) -> None:
-        """See `Hardware`."""
-        self.plant.step()
-        self._tick += 1
-
-    def truth(self) -> Floats:
-        """See `Hardware`: states, torques, wrench."""
-        return flat_limb_truth(self.plant.truth())

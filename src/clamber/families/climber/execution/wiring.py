@@ -1,7 +1,5 @@
 """Encoders and amplifiers of a climber, the guard that holds its posture, and the envelope of its joints."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from ....errors import SpecError
@@ -47,26 +45,17 @@ def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
     return Wiring(encoder_resolution(robot, counts), per_volt, np.minimum(limits / per_volt, COMMAND_LIMIT), grippers)
 
 
-def wiring_of_limb(robot: LimbedRobot, name: str, counts: int | None = None) -> Wiring:
-    """Wires of one limb alone: two encoders, two amplifiers. See `wiring_of`."""
-    whole, first = wiring_of(robot, counts), 2 * robot.limb_index(name)
-    two = slice(first, first + 2)
-    return Wiring(whole.resolution[two], whole.torque_per_volt[two], whole.most_volts[two])
-
-
 def guard_of(robot: LimbedRobot, wiring: Wiring, period: float) -> PostureGuard:
     """The guard of a whole climber."""
     return PostureGuard(wiring, np.array([joint.inertia for joint in robot.joints]), period)
 
 
-def envelope_of(robot: LimbedRobot, wiring: Wiring, period: float, limbs: Sequence[str] | None = None) -> Envelope:
-    """The envelope of a climber's joints, or of those of some limbs, as its file states them."""
-    chosen = [limb for limb in robot.limbs if limbs is None or limb.name in limbs]
-    joints = [joint for limb in chosen for joint in (limb.shoulder, limb.elbow)]
-    motor = robot.motor
+def envelope_of(robot: LimbedRobot, wiring: Wiring, period: float) -> Envelope:
+    """The envelope of a climber's joints, as its file states them."""
+    joints, motor = robot.joints, robot.motor
     none = motor.continuous_torque is None or motor.thermal_time is None
     limits = JointLimits(
-        names=tuple(f"{limb.name} {which}" for limb in chosen for which in ("shoulder", "elbow")),
+        names=robot.joint_names,
         lower=np.array([joint.lower for joint in joints]),
         upper=np.array([joint.upper for joint in joints]),
         speeds=np.array([robot.no_load_speed_of(joint) for joint in joints]),
