@@ -9,19 +9,15 @@ and the servo is that of resolved rate control, so friction in the joints stays 
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
-from .law_state import ERROR, FELT, GRAM, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE
+from .inverse_motion import joint_motion
+from .law_state import ERROR, FELT, SHARE, SPARE, TORQUE, WANTED_FORCE, WANTED_RATE
 
 
 @kernel
 def admittance(joints, root, settings, aim, state, memory, room, report):
     """Torques of admittance control into `lines[TORQUE]`; arguments as in `drive`. Memory: by row offset z, then its speed v."""
-    lines, squares = room.lines, room.squares
-    qd = state[1]
-    n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    lines, qd = room.lines, state[1]
+    n, rows = joints.size, settings.n_rows
     offset = memory[0:rows]
     yielding = memory[rows : 2 * rows]
     speed = lines[SPARE]
@@ -36,7 +32,6 @@ def admittance(joints, root, settings, aim, state, memory, room, report):
         wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
         error = lines[ERROR, i] + offset[i]
         speed[i] = wanted + yielding[i] + settings.kp[i] / settings.joint_kd * error
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, speed, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = joint_motion(n, settings, speed, room, report)
     for j in range(n):
         lines[TORQUE, j] = lines[SHARE, j] * settings.joint_kd * (motion[j] - qd[j])

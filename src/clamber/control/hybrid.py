@@ -9,21 +9,8 @@ move: the damping d bounds how fast the limb approaches a surface that is not th
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
-from .law_state import (
-    ERROR,
-    FELT,
-    GRAM,
-    RATE,
-    SHARE,
-    SPARE,
-    SQUARE,
-    TASK,
-    TORQUE,
-    WANTED_FORCE,
-    WANTED_RATE,
-    pull_back,
-)
+from .inverse_motion import joint_motion
+from .law_state import ERROR, FELT, RATE, SHARE, SPARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE, pull_back
 
 TOUCHING = 0.1
 """Part of the wanted force from which the tip counts as touching the surface."""
@@ -32,11 +19,8 @@ TOUCHING = 0.1
 @kernel
 def hybrid(joints, root, settings, aim, state, memory, room, report):
     """Torques of hybrid control into `lines[TORQUE]`; arguments as in `drive`. Memory: by row the integral of the error of force."""
-    lines, squares = room.lines, room.squares
-    n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    lines = room.lines
+    n, rows = joints.size, settings.n_rows
     pull = lines[SPARE]
     force = lines[SPARE + 3]
     for i in range(rows):
@@ -51,8 +35,7 @@ def hybrid(joints, root, settings, aim, state, memory, room, report):
         else:
             force[i] = 0.0
             pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = joint_motion(n, settings, pull, room, report)
     for j in range(n):
         lines[TORQUE, j] = lines[SHARE, j] * motion[j]
-    pull_back(task, rows, n, force, lines[TORQUE])
+    pull_back(room.squares[TASK], rows, n, force, lines[TORQUE])

@@ -7,18 +7,15 @@ sensed: an error in k_e, in the surface's place or in the joints' friction is an
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
-from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE, pull_back
+from .inverse_motion import joint_motion
+from .law_state import ERROR, RATE, SHARE, SPARE, TASK, TORQUE, WANTED_FORCE, WANTED_RATE, pull_back
 
 
 @kernel
 def implicit_force(joints, root, settings, aim, state, memory, room, report):
     """Torques of implicit force control into `lines[TORQUE]`; arguments as in `drive`."""
-    lines, squares = room.lines, room.squares
-    n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    lines = room.lines
+    n, rows = joints.size, settings.n_rows
     pull = lines[SPARE]
     force = lines[SPARE + 3]
     for i in range(rows):
@@ -26,8 +23,7 @@ def implicit_force(joints, root, settings, aim, state, memory, room, report):
         force[i] = lines[WANTED_FORCE, i] if settings.forced[i] else 0.0
         wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
         pull[i] = settings.kp[i] * (lines[ERROR, i] + deep) + settings.kd[i] * (wanted - lines[RATE, i])
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = joint_motion(n, settings, pull, room, report)
     for j in range(n):
         lines[TORQUE, j] = lines[SHARE, j] * motion[j]
-    pull_back(task, rows, n, force, lines[TORQUE])
+    pull_back(room.squares[TASK], rows, n, force, lines[TORQUE])

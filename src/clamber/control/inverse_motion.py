@@ -9,6 +9,7 @@ below `settings.sigma`: lambda^2 = lambda2 (1 - (sigma / sigma_0)^2) (Nakamura a
 """
 
 from ..compiled import inlined, kernel
+from .law_state import GRAM, SHARE, SPARE, SQUARE, TASK
 from .matrices import back_substitute, factor, smallest_singular, solve_square
 
 
@@ -65,3 +66,13 @@ def invert_motion(task, n_rows, n, share, lambda2, wanted, square, held, out):
         for i in range(n_rows):
             total += task[i, j] * held[i]
         out[j] = total / share[j]
+
+
+@inlined
+def joint_motion(n, settings, wanted, room, report):
+    """Motion of the first `n` joints that gives the task motion `wanted`, damped where the task is nearly singular: scratch of `room`."""
+    lines, squares = room.lines, room.squares
+    task, rows, motion = squares[TASK], settings.n_rows, lines[SPARE + 1]
+    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    invert_motion(task, rows, n, lines[SHARE], lambda2, wanted, squares[SQUARE], lines[SPARE + 2], motion)
+    return motion

@@ -20,8 +20,7 @@ def plane_slope(points, values, counts):
         counts: 1 for points that count, shape (n,).
     """
     n = 0
-    x_mean = 0.0
-    y_mean = 0.0
+    x_mean = y_mean = 0.0
     for i in range(counts.shape[0]):
         if counts[i]:
             n += 1
@@ -31,11 +30,7 @@ def plane_slope(points, values, counts):
         return 0.0, 0.0
     x_mean /= n
     y_mean /= n
-    xx = 0.0
-    xy = 0.0
-    yy = 0.0
-    by_x = 0.0
-    by_y = 0.0
+    xx = xy = yy = by_x = by_y = 0.0
     for i in range(counts.shape[0]):
         if counts[i]:
             x = points[i, 0] - x_mean
@@ -65,9 +60,7 @@ def strain_of(places, loads, stands):
     """
     strain = np.zeros(stands.shape[0])
     n = 0
-    x_mean = 0.0
-    y_mean = 0.0
-    mean = 0.0
+    x_mean = y_mean = mean = 0.0
     for i in range(stands.shape[0]):
         if stands[i]:
             n += 1

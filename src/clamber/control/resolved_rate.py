@@ -16,25 +16,19 @@ fed back: the tip drifts off by what the Jacobian changes on the way, and after 
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
+from .inverse_motion import damping_of, invert_motion, joint_motion
 from .law_state import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
 
 
 @kernel
 def resolved_rate(joints, root, settings, aim, state, memory, room, report):
     """Torques of resolved rate control with the Cartesian gain into `lines[TORQUE]`; arguments as in `drive`."""
-    lines, squares = room.lines, room.squares
-    qd = state[1]
-    n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    lines, qd, n = room.lines, state[1], joints.size
     speed = lines[SPARE]
-    for i in range(rows):
+    for i in range(settings.n_rows):
         wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
         speed[i] = wanted + settings.kp[i] / settings.joint_kd * lines[ERROR, i]
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, speed, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = joint_motion(n, settings, speed, room, report)
     for j in range(n):
         lines[TORQUE, j] = lines[SHARE, j] * settings.joint_kd * (motion[j] - qd[j])
 

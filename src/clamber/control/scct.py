@@ -7,24 +7,19 @@ inertia is not small beside that of the geared motors.
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
-from .law_state import ERROR, GRAM, RATE, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .inverse_motion import joint_motion
+from .law_state import ERROR, RATE, SHARE, SPARE, TORQUE, WANTED_RATE
 
 
 @kernel
 def wanted_motion(n, settings, room, report):
     """Joint motion J^-1 (K_p e + K_d de/dt) that is asked of the first `n` joints; arguments as in `drive`."""
-    lines, squares = room.lines, room.squares
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    lines = room.lines
     pull = lines[SPARE]
-    for i in range(rows):
+    for i in range(settings.n_rows):
         wanted = lines[WANTED_RATE, i] if settings.feed_velocity else 0.0
         pull[i] = settings.kp[i] * lines[ERROR, i] + settings.kd[i] * (wanted - lines[RATE, i])
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, pull, squares[SQUARE], lines[SPARE + 2], motion)
-    return motion
+    return joint_motion(n, settings, pull, room, report)
 
 
 @kernel

@@ -93,13 +93,7 @@ def reckon(places, lengths, anchors, heights, stands, pose, soles, matrix):
         sb = math.sin(beta)
         cg = math.cos(gamma)
         sg = math.sin(gamma)
-        n = 0.0
-        vx = 0.0
-        vy = 0.0
-        ax = 0.0
-        ay = 0.0
-        dot = 0.0
-        cross = 0.0
+        n = vx = vy = ax = ay = dot = cross = 0.0
         for i in range(stands.shape[0]):
             if stands[i]:
                 x = cb * places[i, 0] + sb * (sg * places[i, 1] - cg * lengths[i])

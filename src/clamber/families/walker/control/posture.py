@@ -81,11 +81,7 @@ def plate_on_legs(places, lengths, heights, stands):
     Returns:
         Whether there is such a plate, its height [m], beta, gamma [rad].
     """
-    n = 0.0
-    sx = 0.0
-    sy = 0.0
-    sl = 0.0
-    sh = 0.0
+    n = sx = sy = sl = sh = 0.0
     for i in range(stands.shape[0]):
         if stands[i]:
             n += 1.0
@@ -95,13 +91,7 @@ def plate_on_legs(places, lengths, heights, stands):
             sh += heights[i]
     if n < 3.0:
         return False, 0.0, 0.0, 0.0
-    xx = 0.0
-    xy = 0.0
-    yy = 0.0
-    xl = 0.0
-    yl = 0.0
-    xh = 0.0
-    yh = 0.0
+    xx = xy = yy = xl = yl = xh = yh = 0.0
     for i in range(stands.shape[0]):
         if stands[i]:
             x = places[i, 0] - sx / n
