@@ -95,9 +95,9 @@ class Handle:
         self.held: Final = held
         self._memory = np.array(_words(held), np.int64)
         self.address: Final = int(self._memory.ctypes.data)
-        form = _form(held)
+        form = Handle, _form(held)
         if form not in _types:
-            _types[form] = HandleType(numba.typeof(held))
+            _types[form] = HandleType(_kind(held))
         self._numba_type_ = _types[form]
 
     def __index__(self) -> int:
@@ -110,7 +110,7 @@ def ready(function: Any, *like: Any) -> Callable[..., Any]:
     Numba looks at the type of each argument at each call, for half a microsecond where it is a handle. Here nobody looks any more, and an
     array of another type or layout would be read as if it were not: for a caller's own arrays, in loops of a dozen calls a tick.
     """
-    kinds = tuple(map(numba.typeof, like))
+    kinds = tuple(map(_kind, like))
     known = function.overloads.get(kinds)
     handles = tuple(itertools.takewhile(lambda one: isinstance(one, Handle), like))
     call = partial(function.compile(kinds) if known is None else known.entry_point, *(one.address for one in handles))
@@ -118,8 +118,18 @@ def ready(function: Any, *like: Any) -> Callable[..., Any]:
     return call
 
 
-_types: Final[dict[Hashable, HandleType]] = {}
+_types: Final[dict[Hashable, types.Type]] = {}
 """By `_form`: Numba takes a millisecond for the type of fifty arrays."""
+
+
+def _kind(value: Any) -> types.Type:
+    """Numba's type of a value."""
+    if isinstance(value, Handle):
+        return value._numba_type_
+    form = _form(value)
+    if form not in _types:
+        _types[form] = numba.typeof(value)
+    return _types[form]
 
 
 def _form(value: Any) -> Hashable:

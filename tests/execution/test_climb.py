@@ -14,7 +14,6 @@ from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
 from clamber.families.climber.execution.ends import grab, press_on, release
 from clamber.families.climber.execution.executable_plan import lay_course
-from clamber.families.climber.execution.hook_push import push_on
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.motions import (
     JOINT_AGILITY,
@@ -617,7 +616,7 @@ def test_a_hook_goes_straight_to_where_its_hold_may_be_however_straight_its_limb
 
     climber.tick = watched  # type: ignore[method-assign]
     with pytest.raises(StopIteration):
-        push_on(climber, BOTTOM, place, g, room)
+        hook.push_on(climber, BOTTOM, place, g, room)
     assert abs(asides[0]) < 0.006  # the flare of a hook catches 15 mm either way, the map is off by 9 mm
 
 

@@ -17,6 +17,7 @@ from clamber.families.climber.execution.approach import (
     Approaches,
     Wish,
     discs_near,
+    discs_of,
     wall_of,
 )
 from clamber.families.climber.execution.limb_task import LimbTask
@@ -29,6 +30,7 @@ from clamber.tasks.robots import load_robot
 from clamber.types import Floats
 
 PEG = 0.006
+NONE = np.empty((0, 3))
 RIGHT, LEFT, BOTTOM = 0, 1, 2
 
 
@@ -40,7 +42,7 @@ def libra() -> LimbedRobot:
 
 def approaches() -> Approaches:
     robot = libra()
-    return Approaches(robot, legs_of(robot), lambda number: PEG)
+    return Approaches(robot, legs_of(robot))
 
 
 def places_of(board: str) -> dict[int, Floats]:
@@ -87,7 +89,7 @@ def blocked(board: str, seed: int) -> tuple[int, Floats, list[Floats]]:
 def test_a_parked_limb_meets_no_peg_along_the_way_of_the_body(board: str, seed: int) -> None:
     ways, holds = approaches(), places_of(board)
     i, angles, poses = blocked(board, seed)
-    way = park(ways, i, angles, poses, holds)
+    way = park(ways, i, angles, poses, discs_of(holds.values(), PEG))
     assert way is not None
     np.testing.assert_allclose(way[0], angles)
     assert min(least_room(ways.robot, i, way[-1], pose, holds) for pose in poses) > SPARE - 0.001
@@ -103,9 +105,9 @@ def test_the_body_may_pass_where_its_free_limb_can_first_go_elsewhere_and_not_wh
 ) -> None:
     ways, holds = approaches(), places_of(board)
     i, angles, poses = blocked(board, seed)
-    assert passes(ways, i, angles, poses, holds)
+    assert passes(ways, i, angles, poses, discs_of(holds.values(), PEG))
     around = poses[-1][:2] + 0.2 * np.array([(np.cos(a), np.sin(a)) for a in np.linspace(0.0, 2.0 * np.pi, 80)])
-    ring = {100 + k: place for k, place in enumerate(around)}  # no limb reaches out of it, nor has it room inside
+    ring = discs_of(around, PEG)  # no limb reaches out of it, nor has it room inside
     assert not passes(ways, i, angles, [poses[0], poses[-1]], ring)
 
 
@@ -117,11 +119,11 @@ def test_a_limb_squeezes_past_a_peg_where_the_body_goes_whatever_comes_of_it(
 ) -> None:
     """The right limb behind peg 5 of the modified ladder, of which it let go; the body is to go up by 18 cm."""
     ways, holds, q = approaches(), places_of("modified-ladder"), np.radians(angles)
-    ways.peg_radius = lambda number: PEG + 0.003
+    discs = discs_of(holds.values(), PEG + 0.003)
     start = np.array((0.221 + off[0], 0.202 + off[1], 1.31))
     poses = poses_between(start, np.array((0.229, 0.381, 1.309)))
-    assert park(ways, RIGHT, q, poses, holds) is None
-    way = park(ways, RIGHT, q, poses, holds, margins=TIGHT)
+    assert park(ways, RIGHT, q, poses, discs) is None
+    way = park(ways, RIGHT, q, poses, discs, margins=TIGHT)
     assert way is not None
     assert min(least_room(ways.robot, RIGHT, way[-1], pose, holds) for pose in poses) > SPARE
     for a, b in pairwise(way):
@@ -136,7 +138,7 @@ def test_the_clearance_of_a_limb_is_its_distance_from_the_nearest_peg_and_side_o
     leg, robot, pose = ways.legs[RIGHT], ways.robot, np.zeros(3)
     holds = {k: place for k, place in enumerate(rng.uniform(-0.35, 0.35, (int(rng.integers(0, 12)), 2)))}
     angles = rng.uniform(-np.pi, np.pi, (60, 2))
-    discs, rooms = discs_near(holds, pose, lambda _: PEG), np.empty(len(angles))
+    discs, rooms = discs_near(discs_of(holds.values(), PEG), pose), np.empty(len(angles))
     clearances(leg, angles, discs, np.empty((0, 5)), robot.link_radius, HOOK, rooms)
     expected = [least_room(robot, RIGHT, q, pose, holds) if holds else FAR for q in angles]
     np.testing.assert_allclose(rooms, expected, atol=4e-4)
@@ -154,7 +156,7 @@ def test_the_clearance_of_a_limb_is_its_distance_from_the_nearest_peg_and_side_o
 
 def test_a_limb_with_room_stays_where_it_is() -> None:
     ways, pose = approaches(), np.zeros(3)
-    assert park(ways, RIGHT, np.array((0.2, 0.5)), [pose], {1: np.array((-0.5, 0.5))}) is None
+    assert park(ways, RIGHT, np.array((0.2, 0.5)), [pose], discs_of([(-0.5, 0.5)], PEG)) is None
 
 
 def on_a_hold(bend: float) -> tuple[Floats, Floats, Floats]:
@@ -175,7 +177,7 @@ def on_a_hold(bend: float) -> tuple[Floats, Floats, Floats]:
 
 def test_a_bent_limb_leaves_without_a_move_of_the_body() -> None:
     tip, grab, pose = on_a_hold(60.0)
-    shift = approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {})
+    shift = approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, NONE)
     assert shift is not None
     assert not shift.any()
 
@@ -185,7 +187,7 @@ def test_a_stretched_limb_leaves_where_the_body_has_made_it_bend(away: tuple[flo
     ways = approaches()
     tip, _, pose = on_a_hold(8.0)
     back = np.array(away)
-    shift = ways.leave(RIGHT, 1.0, pose, tip, back, {})
+    shift = ways.leave(RIGHT, 1.0, pose, tip, back, NONE)
     assert shift is not None
     assert shift.any()
     moved = pose + np.array((*shift, 0.0))
@@ -208,19 +210,19 @@ def test_a_hook_sets_out_to_its_hold_from_where_its_elbow_is_well_bent_if_the_bo
         return float(np.degrees(max(before, default=0.0)))
 
     wish = Wish(elbow=1, stand_off=0.04, near=near)
-    found = ways.find(RIGHT, start, pose, tip, {}, wish)
+    found = ways.find(RIGHT, start, pose, tip, NONE, wish)
     assert found is not None
     assert bends(found.shift) > 20.0
-    kept = ways.find(RIGHT, start, pose, tip, {}, wish, stands=lambda pose: False)
+    kept = ways.find(RIGHT, start, pose, tip, NONE, wish, stands=lambda pose: False)
     well = bends(np.zeros(2)) > 20.0
     assert kept is None or not kept.shift.any()
-    strict = ways.find(RIGHT, start, pose, tip, {}, replace(wish, straight=False), stands=lambda pose: False)
+    strict = ways.find(RIGHT, start, pose, tip, NONE, replace(wish, straight=False), stands=lambda pose: False)
     assert (strict is not None) == well
 
 
 def test_no_move_of_the_body_is_made_that_the_others_cannot_bear() -> None:
     tip, grab, pose = on_a_hold(8.0)
-    assert approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, {}, stands=lambda pose: False) is None
+    assert approaches().leave(RIGHT, 1.0, pose, tip, -0.03 * grab, NONE, stands=lambda pose: False) is None
 
 
 @pytest.mark.parametrize("bend", [24.0, 60.0, 105.0])
@@ -303,7 +305,7 @@ def test_a_limb_beside_a_hold_leaves_it_first_and_does_not_sweep_over_it(
     lower, upper = (
         np.array([getattr(joint, end) for joint in (limb.shoulder, limb.elbow)]) for end in ("lower", "upper")
     )
-    discs = discs_near(holds, np.array(pose), lambda number: PEG)
+    discs = discs_near(discs_of(holds.values(), PEG), np.array(pose))
     count = find_way(
         legs_of(robot)[LEFT], lower, upper, CELLS, q, np.radians((-51.6, 28.8)), discs, wall_of(robot),
         robot.link_radius, HOOK, LEAST_CLEARANCE, path,

@@ -1,5 +1,6 @@
 """A serial chain as laws and plants read it: any number of joints from base to tip, with their motors, planar or spatial."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Final, Literal, TypeAlias
@@ -15,6 +16,9 @@ ShareBasis: TypeAlias = Literal["inertia", "damping", "back-emf"]
 """What K' is made of (Bevly 1997, 3.3.2)."""
 SMALLEST_SHARE: Final = 1e-6
 """A joint may not count for less than this of the largest."""
+TURN: Final = "must be a rotation: orthonormal and right-handed"
+EVEN: Final = 1e-8
+"""Rounding that a rotation, or the symmetry of an inertia over its largest number, may be off by [-]."""
 
 
 class ChainError(StatedError):
@@ -46,35 +50,36 @@ class Chain:
             raise ChainError(
                 self.name, "joint_names", len(self.joint_names), f"must be one or more, {self.joints.size}"
             )
-        for name, record in zip(self.joint_names, self.joints, strict=True):
-            self._check_joint(name, record)
+        for key in ("place", "turn", "axis", "centre", "inertia", "lower", "upper", "rest"):
+            self._check_joints(key, np.isfinite(self.joints[key]), "must be finite numbers")
+        for key in ("mass", "rotor", "damping", "friction", "back_emf"):
+            values = self.joints[key]
+            self._check_joints(key, (values >= 0.0) & (values < np.inf), "must be 0 or more, and finite")
+        for key in ("limit", "speed", "share"):
+            self._check_joints(key, self.joints[key] > 0.0, "must be more than 0")
+        unit = np.abs(np.linalg.norm(self.joints["axis"], axis=1) - 1.0) < 1e-9
+        self._check_joints("axis", unit, "must be a unit vector")
+        crossed = int(np.argmax(self.joints["lower"] > self.joints["upper"]))
+        most = f"must be at most upper, {self.joints['upper'][crossed]:g}"
+        self._check_joints("lower", self.joints["lower"] <= self.joints["upper"], most)
+        self._check_joints("turn", _is_turn(self.joints["turn"]), TURN)
+        inertia = self.joints["inertia"]
+        largest = np.abs(inertia).max(axis=(1, 2))
+        even = np.abs(inertia - inertia.transpose(0, 2, 1)).max(axis=(1, 2)) <= EVEN * largest
+        body = even & (np.linalg.eigvalsh(inertia).min(axis=1) >= -1e-9 * largest)
+        self._check_joints("inertia", body, "must be symmetric, without negative eigenvalue")
         for key in ("tip", "tip_turn", "gravity"):
             if not np.isfinite(self.root[key]).all():
                 raise ChainError(self.name, key, self.root[key][0].tolist(), "must be finite numbers")
-        _check_turn(self.name, "tip_turn", self.root["tip_turn"][0])
+        if not _is_turn(self.root["tip_turn"])[0]:
+            raise ChainError(self.name, "tip_turn", self.root["tip_turn"][0].tolist(), TURN)
 
-    def _check_joint(self, name: str, record: Any) -> None:
-        for key in ("place", "turn", "axis", "centre", "inertia", "lower", "upper", "rest"):
-            if not np.isfinite(record[key]).all():
-                raise ChainError(self.name, f"{name}.{key}", record[key].tolist(), "must be finite numbers")
-        for key in ("mass", "rotor", "damping", "friction", "back_emf"):
-            if not 0.0 <= record[key] < np.inf:
-                raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be 0 or more, and finite")
-        for key in ("limit", "speed", "share"):
-            if not record[key] > 0.0:
-                raise ChainError(self.name, f"{name}.{key}", float(record[key]), "must be more than 0")
-        if not abs(np.linalg.norm(record["axis"]) - 1.0) < 1e-9:
-            raise ChainError(self.name, f"{name}.axis", record["axis"].tolist(), "must be a unit vector")
-        if not record["lower"] <= record["upper"]:
-            raise ChainError(
-                self.name, f"{name}.lower", float(record["lower"]), f"must be at most upper, {record['upper']:g}"
-            )
-        _check_turn(self.name, f"{name}.turn", record["turn"])
-        inertia = record["inertia"]
-        if not np.allclose(inertia, inertia.T) or np.linalg.eigvalsh(inertia).min() < -1e-9 * np.abs(inertia).max():
-            raise ChainError(
-                self.name, f"{name}.inertia", inertia.tolist(), "must be symmetric, without negative eigenvalue"
-            )
+    def _check_joints(self, key: str, fine: Any, allowed: str) -> None:
+        """Complain of the first joint, a row, of which a field is not all fine."""
+        if not fine.all():
+            joint = int(np.argmin(fine.reshape(self.n, -1).all(axis=1)))
+            value = self.joints[key][joint].tolist()
+            raise ChainError(self.name, f"{self.joint_names[joint]}.{key}", value, allowed)
 
     @property
     def n(self) -> int:
@@ -200,10 +205,11 @@ def rotation(vector: Sequence[float] | Floats) -> Floats:
     return out
 
 
-def _check_turn(chain: str, key: str, turn: Floats) -> None:
-    if not np.allclose(turn @ turn.T, np.eye(3), atol=1e-9) or np.linalg.det(turn) < 0.0:
-        raise ChainError(chain, key, turn.tolist(), "must be a rotation: orthonormal and right-handed")
+def _is_turn(turns: Floats) -> Any:
+    """Whether each matrix is orthonormal and right-handed, shape (n,)."""
+    off = np.abs(turns @ turns.transpose(0, 2, 1) - np.eye(3)).max(axis=(1, 2))
+    return (off <= EVEN) & (np.linalg.det(turns) > 0.0)
 
 
 def _wrapped(angle: float) -> float:
-    return float(angle - 2 * np.pi * np.ceil((angle - np.pi) / (2 * np.pi)))
+    return angle - 2 * math.pi * math.ceil((angle - math.pi) / (2 * math.pi))

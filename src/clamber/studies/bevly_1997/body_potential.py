@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from ...families.climber.execution import hook_push
+from ...families.climber.control import hook_push
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.execution.hook import NEAR
 from ...families.climber.robot.robot import LimbedRobot

@@ -1,5 +1,6 @@
 """The limbs of a climber as the laws know them: each as a chain, and all as records of the body's control."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -69,12 +70,11 @@ def closed_branches(limb: Limb, x: float, y: float) -> tuple[tuple[float, float]
     cosine = (x * x + y * y - l1 * l1 - l2 * l2) / (2 * l1 * l2)
     if not abs(cosine) <= 1.0:
         return ()
-    bend = float(np.arccos(cosine))
+    bend, towards = float(np.arccos(cosine)), float(np.arctan2(y, x))
     out = []
     for inner in (bend, -bend):
-        theta2 = inner - beta
-        theta1 = np.arctan2(y, x) - np.arctan2(l2 * np.sin(inner), l1 + l2 * np.cos(inner))
-        out.append((float(_wrapped(theta1)), float(_wrapped(theta2))))
+        to_tip = float(np.arctan2(l2 * math.sin(inner), l1 + l2 * math.cos(inner)))
+        out.append((_wrapped(towards - to_tip), _wrapped(inner - beta)))
     return tuple(out)
 
 

@@ -57,6 +57,19 @@ def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
 
 
 @kernel
+def discs_in_body(discs, pose, within, out):
+    """Fill `out` with discs x, y, radius of the world so near to a body at a pose, in its frame, shape (n, 3) [m]; how many."""
+    c, s = math.cos(pose[2]), math.sin(pose[2])
+    count = 0
+    for k in range(discs.shape[0]):
+        dx, dy = discs[k, 0] - pose[0], discs[k, 1] - pose[1]
+        if math.hypot(dx, dy) < within:
+            out[count, 0], out[count, 1], out[count, 2] = c * dx + s * dy, -s * dx + c * dy, discs[k, 2]
+            count += 1
+    return count
+
+
+@kernel
 def clearance(leg, t1, t2, discs, walls, link_radius, hook):
     """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
 

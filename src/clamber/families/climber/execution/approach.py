@@ -1,7 +1,7 @@
 """How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import product
 from typing import Final
@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Records
-from ..control.swing_path import clearance, find_way
+from ..control.swing_path import clearance, discs_in_body, find_way
 from ..robot.robot import Limb, LimbedRobot
 from .postures import Posture, postures
 
@@ -66,15 +66,15 @@ def free_distance(peg_radius: float, doubt: float) -> float:
     return float(HOOK.sum()) + LEAST_CLEARANCE + peg_radius + doubt
 
 
-def discs_near(holds: Mapping[int, Floats], pose: Floats, radius: Callable[[int], float]) -> Floats:
-    """Holds near the body as discs x, y, radius in the body frame, shape (n, 3) [m]; `radius` of a hold by its number."""
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    away = np.array(list(holds.values())).reshape(-1, 2) - pose[:2]
-    near = np.flatnonzero(np.hypot(away[:, 0], away[:, 1]) < NEARBY)
-    numbers, (dx, dy) = list(holds), away[near].T
-    out = np.empty((len(near), 3))
-    out[:, 0], out[:, 1], out[:, 2] = c * dx + s * dy, -s * dx + c * dy, [radius(numbers[k]) for k in near]
-    return out
+def discs_of(places: Iterable[Floats | tuple[float, float]], radius: float) -> Floats:
+    """Places as discs x, y, radius, shape (n, 3) [m]."""
+    return np.array([(*place, radius) for place in places]).reshape(-1, 3)
+
+
+def discs_near(discs: Floats, pose: Floats) -> Floats:
+    """Discs x, y, radius in the world that are near a body at a pose, in its frame, shape (n, 3) [m]."""
+    out: Floats = np.empty_like(discs)
+    return out[: discs_in_body(discs, pose, NEARBY, out)]
 
 
 def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
@@ -104,11 +104,10 @@ class Approaches:
     Args:
         robot: The climber.
         legs: Records of `control.planar_limb.PLANAR_LIMB`, one per limb.
-        peg_radius: Of a hold by its number, its place's doubt included [m].
     """
 
-    def __init__(self, robot: LimbedRobot, legs: Records, peg_radius: Callable[[int], float]) -> None:
-        self.robot, self.legs, self.peg_radius = robot, legs, peg_radius
+    def __init__(self, robot: LimbedRobot, legs: Records) -> None:
+        self.robot, self.legs = robot, legs
         self.wall = wall_of(robot)
         self.path = np.zeros((MOST_POINTS, 2))
 
@@ -118,7 +117,7 @@ class Approaches:
         angles: Floats,
         pose: Floats,
         hold: Floats,
-        holds: Mapping[int, Floats],
+        discs: Floats,
         wish: Wish,
         *,
         stands: Callable[[Floats], bool] = lambda pose: True,
@@ -130,7 +129,7 @@ class Approaches:
             angles: Where it is, shape (2,) [rad].
             pose: Body pose, shape (3,).
             hold: Place of the hold, world frame [m].
-            holds: All holds by number, as obstacles.
+            discs: All holds as obstacles: x, y, radius with what the place is in doubt by, world frame, shape (n, 3) [m].
             wish: How it is to come there.
             stands: Whether the other limbs can hold the body at another pose.
         """
@@ -140,7 +139,7 @@ class Approaches:
             moved = pose + np.array((*shift, 0.0))
             if shift.any() and not stands(moved):
                 continue
-            found = self._stand_off(i, angles, moved, hold, holds, wish, bent, slants)
+            found = self._stand_off(i, angles, moved, hold, discs, wish, bent, slants)
             if found is not None:
                 grab, way, distance = found
                 return Approach(shift, way, grab, distance)
@@ -153,7 +152,7 @@ class Approaches:
         pose: Floats,
         tip: Floats,
         back: Floats,
-        holds: Mapping[int, Floats],
+        discs: Floats,
         *,
         stands: Callable[[Floats], bool] = lambda pose: True,
     ) -> Floats | None:
@@ -165,7 +164,7 @@ class Approaches:
             pose: Body pose, shape (3,).
             tip: Of the limb, on its hold, world frame [m].
             back: How far it draws back, world frame, shape (2,) [m].
-            holds: All holds by number, as obstacles.
+            discs: All holds as obstacles: x, y, radius with what the place is in doubt by, world frame, shape (n, 3) [m].
             stands: Whether the other limbs can hold the body at another pose.
         """
         inwards = float(np.sign(tip[0] - pose[0]))
@@ -174,9 +173,9 @@ class Approaches:
             moved = pose + np.array((*shift, 0.0))
             if shift.any() and not stands(moved):
                 continue
-            discs = discs_near(holds, moved, self.peg_radius)
+            near = discs_near(discs, moved)
             if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
-                self._room(i, one.angles, discs) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
+                self._room(i, one.angles, near) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
             ):
                 return shift
         return None
@@ -204,13 +203,13 @@ class Approaches:
         angles: Floats,
         pose: Floats,
         hold: Floats,
-        holds: Mapping[int, Floats],
+        discs: Floats,
         wish: Wish,
         bent: float,
         slants: tuple[int, ...],
     ) -> tuple[Floats, Floats, float] | None:
         limb = self.robot.limbs[i]
-        discs = discs_near(holds, pose, self.peg_radius)
+        discs = discs_near(discs, pose)
         lower = np.array((limb.shoulder.lower, limb.elbow.lower))
         upper = np.array((limb.shoulder.upper, limb.elbow.upper))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry

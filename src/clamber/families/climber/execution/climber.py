@@ -95,7 +95,7 @@ class Climber:
         self.holds = {hold.number: np.array((hold.x, hold.y)) for hold in board.holds}
         self.map = HoldMap(self.holds, map_error, backlash=self.body.backlash, terrain=terrain)
         self.peg_radius = max(hold.radius for hold in board.holds)
-        self.approaches = Approaches(robot, self.body.legs, lambda number: self.peg_radius + self.map.error(number))
+        self.approaches = Approaches(robot, self.body.legs)
         self.balance: Callable[[], None] | None = None
         """Told at every tick between sensing and commanding, while the body hangs on one limb."""
         n = len(robot.limbs)
@@ -288,6 +288,15 @@ class Climber:
         self.body.hand_over([i for i, task in enumerate(self.body.tasks) if i != but and task.hold])
         while self.body.handing_over:
             self.tick()
+
+    def discs(self, without: int = 0) -> Floats:
+        """Holds but one as discs x, y, radius with what the map is in doubt by, world frame, shape (n, 3) [m]."""
+        found = [
+            (*place, self.peg_radius + self.map.error(number))
+            for number, place in self.holds.items()
+            if number != without
+        ]
+        return np.array(found).reshape(-1, 3)
 
     def doubt(self, number: int, i: int) -> float:
         """How far off limb `i`'s tip may seem to be along each axis when it is on a hold, by what is known of the map and sensors [m]."""

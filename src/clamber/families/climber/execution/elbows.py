@@ -14,7 +14,7 @@ from ..robot.robot import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH, LimbedRobot
 from ..statics.elbows import has_assignment
 from ..statics.interference import hook_gap
 from ..world.board import Board
-from .approach import discs_near, wall_of
+from .approach import discs_near, discs_of, wall_of
 from .postures import Posture, postures
 
 CHANGE: Final = 0.4
@@ -122,16 +122,16 @@ def _crowding(
 ) -> list[float]:
     """What each posture of a limb on hold number `on` of the board's list counts for being near other holds and the body."""
     own = board.holds[on]
-    others = {hold.number: np.array((hold.x, hold.y)) for k, hold in enumerate(board.holds) if k != on}
+    others = [(hold.x, hold.y) for k, hold in enumerate(board.holds) if k != on]
     radius = max(hold.radius for hold in board.holds)
-    discs = discs_near(others, pose, lambda _: radius)
+    discs = discs_near(discs_of(others, radius), pose)
     out = []
     for posture in found:
         room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, NO_HOOK)
         if robot.limbs[i].end.kind != "gripper":
             x, y = posture.grab
-            for place in others.values():
-                dx, dy = place[0] - own.x, place[1] - own.y
+            for other_x, other_y in others:
+                dx, dy = other_x - own.x, other_y - own.y
                 beside = hook_gap(HOOK_WIDTH, HOOK_AHEAD, HOOK_WAY, x * dx + y * dy, x * dy - y * dx)
                 room = min(room, float(beside) - radius)
         out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))

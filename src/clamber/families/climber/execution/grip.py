@@ -73,7 +73,7 @@ def _from_beside(
     limb, body = climber.robot.limbs[i], climber.body
     lower = np.array((limb.shoulder.lower, limb.elbow.lower))
     upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-    discs, path = discs_near(climber.holds, pose, climber.approaches.peg_radius), np.zeros((MOST_POINTS, 2))
+    discs, path = discs_near(climber.discs(), pose), np.zeros((MOST_POINTS, 2))
     for towards, place, posture in _beside(climber, i, pose, hold, final, doubt):
         if _room(climber, i, pose, posture) < LEAST_CLEARANCE / 2:
             continue
@@ -102,7 +102,7 @@ def _beside(
 
 
 def _room(climber: Climber, i: int, pose: Floats, posture: Posture) -> float:
-    discs = discs_near(climber.holds, pose, climber.approaches.peg_radius)
+    discs = discs_near(climber.discs(), pose)
     q, legs, robot = posture.angles, climber.body.legs, climber.robot
     return float(clearance(legs[i], q[0], q[1], discs, wall_of(robot), robot.link_radius, HOOK))
 

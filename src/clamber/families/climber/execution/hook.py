@@ -7,10 +7,11 @@ from typing import Final
 
 import numpy as np
 
+from ....compiled import Handle, ready
 from ....types import Floats
+from ..control.hook_push import GOES_ON, HANGING, IS_SEATED, PATIENCE, PUSHING, WIDE_DITHER, push_tick
 from .approach import Approach, Wish
 from .climber import Climber
-from .hook_push import push_on
 from .hook_release import release as release
 from .hook_release import stand_off_of
 from .motions import JOINT_SPEED, follow, may_move, move_body, move_tip
@@ -79,6 +80,33 @@ def comes_home(
         home = home and off < min(FAR_OFF[0] + doubt, FAR_OFF[1] if short > 0.0 else PASSED)
     farther = any(float((end - tip) @ g) > DEEPER and math.dist(end, hold) < room for end in before)
     return (home and not farther) or again
+
+
+def push_on(climber: Climber, i: int, place: Floats, g: Floats, room: float) -> bool:
+    """Push a hook along its grab direction until it stops, then tug as hard as it will have to carry, until it no longer advances.
+
+    One that stops short of where its hold should be is coaxed across under the tug, as its flare may have met the hold.
+
+    Returns:
+        Whether it came to rest under the tug, not farther in than a hold could be. Where the body hangs, it then goes on pulling: what
+        let go of would swing.
+    """
+    body, task, period, hangs = climber.body, climber.body.tasks[i], climber.plant.period, climber.hangs
+    task.mode, task.pressed, task.tug = "contact_push", False, np.zeros(2)
+    push, forces = np.zeros(1, PUSHING), np.zeros((2, 2))
+    push["period"], push["room"], push["hangs"], push["limb"] = period, room, hangs, i
+    push["place"], push["grab"], push["most"], push["marks"] = place, g, round(PATIENCE / period), -math.inf
+    push["part"], push["coaxing"] = HANGING if hangs else 1.0, WIDE_DITHER
+    jobs = body.work.jobs
+    go = ready(push_tick, Handle(push, body.pose, body.in_world, jobs, forces))
+    task.force, task.tug = forces
+    while (state := go()) == GOES_ON:
+        climber.tick()
+    if hangs and state == IS_SEATED:
+        task.force, task.pressed = push["pull"][0], bool(jobs["pressed"][i])
+        return True
+    task.pressed, task.tug = False, np.zeros(2)
+    return bool(state == IS_SEATED)
 
 
 CLEAR: Final = 0.02
@@ -187,7 +215,7 @@ def come_near(climber: Climber, i: int, number: int, doubt: float, elbow: int, h
             body.q[i] - body.play[i],
             body.settled,
             hold,
-            climber.holds,
+            climber.discs(),
             replace(wish, straight=straight),
             stands=stands,
         )

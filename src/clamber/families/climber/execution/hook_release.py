@@ -6,10 +6,10 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
+from ..control.hook_push import PUSH, WIDE_DITHER, WIDE_RATE
 from ..robot.robot import Limb
 from .approach import SHIFTS, free_distance
 from .climber import Climber
-from .hook_push import PUSH, WIDE_DITHER, WIDE_RATE
 from .motions import WEAKER, may_move, move_body, move_tip
 
 WIDE_STAND_OFF: Final = 0.042
@@ -130,7 +130,7 @@ def _room_to_leave(climber: Climber, i: int, start: Floats, back: Floats) -> tup
     body, ways = climber.body, climber.approaches
     climber.plant.pause()
     side = float(np.sign(body.q[i, 1] - body.play[i, 1]))
-    shift = ways.leave(i, side, body.settled, start, back, climber.holds, stands=may_move(climber))
+    shift = ways.leave(i, side, body.settled, start, back, climber.discs(), stands=may_move(climber))
     if shift is None or not shift.any():
         return np.zeros(2), False
     return shift, ways.bends(i, side, body.settled, start, back, shift)

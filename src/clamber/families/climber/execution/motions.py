@@ -1,7 +1,7 @@
 """Motions that all actions are made of: the body on smooth ways, free limbs out of its way, tips and joints of limbs."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Final
 
 import numpy as np
@@ -165,14 +165,15 @@ def is_clear(climber: Climber, pose: Floats, spare: float) -> bool:
     """Whether free limbs, where they are, are by `spare` clear of holds [m] while the body goes straight to a pose."""
     body = climber.body
     way, free = poses_between(body.settled, pose), [i for i, task in enumerate(body.tasks) if not task.hold]
-    return all(room_along(climber.approaches, i, body.q[i] - body.play[i], way, climber.holds) >= spare for i in free)
+    discs = climber.discs()
+    return all(room_along(climber.approaches, i, body.q[i] - body.play[i], way, discs) >= spare for i in free)
 
 
 def _park(climber: Climber, i: int, pose: Floats, spare: float) -> None:
     body = climber.body
     climber.plant.pause()
     poses = poses_between(body.settled, pose)
-    way = park(climber.approaches, i, body.q[i] - body.play[i], poses, climber.holds, spare, TIGHT)
+    way = park(climber.approaches, i, body.q[i] - body.play[i], poses, climber.discs(), spare, TIGHT)
     if way is not None:
         follow(climber, i, way)
 
@@ -187,19 +188,23 @@ def may_move(climber: Climber, *, touching: bool = False) -> Callable[[Floats], 
     body = climber.body
     least = min(0.0, body.stands(body.settled)) - WEAKER
     free = [(i, body.q[i] - body.play[i]) for i, task in enumerate(body.tasks) if not task.hold]
-    tight = -math.inf if touching else min(0.0, _room_of_links(climber, body.settled))
+    discs, others = climber.discs(), {task.hold: climber.discs(task.hold) for task in body.tasks if task.hold}
+    tight = -math.inf if touching else min(0.0, _room_of_links(climber, body.settled, others))
 
     def stands(pose: Floats) -> bool:
-        if body.stands(pose) < least or _room_of_links(climber, pose) < tight:
+        if body.stands(pose) < least or _room_of_links(climber, pose, others) < tight:
             return False
         way = poses_between(body.settled, pose)
-        return all(passes(climber.approaches, i, q, way, climber.holds) for i, q in free)
+        return all(passes(climber.approaches, i, q, way, discs) for i, q in free)
 
     return stands
 
 
-def _room_of_links(climber: Climber, pose: Floats) -> float:
-    """Least room between limbs on holds and all other holds at a pose of the body [m]; negative: one meets one, or its own is too far."""
+def _room_of_links(climber: Climber, pose: Floats, others: Mapping[int, Floats]) -> float:
+    """Least room between limbs on holds and all other holds at a pose of the body [m]; negative: one meets one, or its own is too far.
+
+    `others`: a limb's hold -> all but that as `Climber.discs`.
+    """
     body, ways, least = climber.body, climber.approaches, math.inf
     for i, task in enumerate(body.tasks):
         if not task.hold:
@@ -208,8 +213,7 @@ def _room_of_links(climber: Climber, pose: Floats) -> float:
         fit = [one for one in postures(climber.robot.limbs[i], pose, task.place) if one.angles[1] * side > 0.0]
         if not fit:
             return -math.inf
-        others = {number: place for number, place in climber.holds.items() if number != task.hold}
-        least = min(least, room_along(ways, i, fit[0].angles, [pose], others))
+        least = min(least, room_along(ways, i, fit[0].angles, [pose], others[task.hold]))
     return least
 
 

@@ -1,6 +1,6 @@
 """Where a free limb waits while the body moves: clear of every hold along the body's way, as near as can be to where it is."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import product
 from typing import Final
 
@@ -29,11 +29,9 @@ def poses_between(start: Floats, end: Floats) -> list[Floats]:
     return [start + u * change for u in np.linspace(0.0, 1.0, 2 + int(length / LOOKS))]
 
 
-def room_along(
-    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
-) -> float:
-    """Clearance of a limb, joints at angles, shape (2,) [rad], from all holds as the body goes along poses; negative: it meets one [m]."""
-    every = np.concatenate([discs_near(holds, pose, approaches.peg_radius) for pose in poses])
+def room_along(approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], discs: Floats) -> float:
+    """Clearance of a limb, joints at angles, shape (2,) [rad], from discs as the body goes along poses; negative: it meets one [m]."""
+    every = np.concatenate([discs_near(discs, pose) for pose in poses])
     return float(_rooms(approaches, i, angles[None], every)[0])
 
 
@@ -44,17 +42,15 @@ def _rooms(approaches: Approaches, i: int, angles: Floats, discs: Floats) -> Flo
     return rooms
 
 
-def passes(
-    approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], holds: Mapping[int, Floats]
-) -> bool:
+def passes(approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], discs: Floats) -> bool:
     """Whether the body may go along poses with a free limb: it meets no hold, or can first go to where it meets none.
 
     Args: As `park`.
     """
-    if room_along(approaches, i, angles, poses, holds) >= 0.0:
+    if room_along(approaches, i, angles, poses, discs) >= 0.0:
         return True
-    way = park(approaches, i, angles, poses, holds)
-    return way is not None and room_along(approaches, i, way[-1], poses, holds) >= 0.0
+    way = park(approaches, i, angles, poses, discs)
+    return way is not None and room_along(approaches, i, way[-1], poses, discs) >= 0.0
 
 
 def park(
@@ -62,7 +58,7 @@ def park(
     i: int,
     angles: Floats,
     poses: Sequence[Floats],
-    holds: Mapping[int, Floats],
+    discs: Floats,
     spare: float = SPARE,
     margins: Sequence[float] = (LEAST_CLEARANCE,),
 ) -> Floats | None:
@@ -73,12 +69,12 @@ def park(
         i: Index of the limb.
         angles: Where it is, shape (2,) [rad].
         poses: Of the body along its way, the present one first.
-        holds: All holds by number.
+        discs: All holds with their doubt: x, y, radius, world frame, shape (n, 3) [m].
         spare: Clearance with which it is well placed [m].
         margins: Clearances that the way keeps but where it begins with less, the first with which there is one [m].
     """
     limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
-    seen = [discs_near(holds, pose, approaches.peg_radius) for pose in poses]
+    seen = [discs_near(discs, pose) for pose in poses]
     every = np.concatenate(seen)
     here = float(_rooms(approaches, i, angles[None], every)[0])
     if here >= spare:

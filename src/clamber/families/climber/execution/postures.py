@@ -41,12 +41,11 @@ def postures(limb: Limb, pose: Floats, place: Floats) -> list[Posture]:
     dy = to_y - y - (s * limb.port_x + c * limb.port_y)
     turn = limb.port_angle + angle
     ct, st = math.cos(turn), math.sin(turn)
-    out = []
-    for angles in closed_branches(limb, ct * dx + st * dy, ct * dy - st * dx):
-        inside = all(
-            joint.lower - 1e-9 <= angle <= joint.upper + 1e-9
-            for joint, angle in zip((limb.shoulder, limb.elbow), angles, strict=True)
+    out, first, second = [], limb.shoulder, limb.elbow
+    for shoulder, elbow in closed_branches(limb, ct * dx + st * dy, ct * dy - st * dx):
+        inside = (
+            first.lower - 1e-9 <= shoulder <= first.upper + 1e-9 and second.lower - 1e-9 <= elbow <= second.upper + 1e-9
         )
-        grab = turn + sum(angles) + limb.end.angle
-        out.append(Posture(np.array(angles), np.array((math.cos(grab), math.sin(grab))), inside))
+        grab = turn + (shoulder + elbow) + limb.end.angle
+        out.append(Posture(np.array((shoulder, elbow)), np.array((math.cos(grab), math.sin(grab))), inside))
     return out

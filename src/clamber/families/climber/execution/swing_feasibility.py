@@ -7,7 +7,7 @@ import numpy as np
 
 from ....types import Floats
 from ..control.limb_chain import legs_of
-from .approach import Approach, Approaches, Wish
+from .approach import Approach, Approaches, Wish, discs_of
 from .contact_capacity import load_capacity
 from .executable_plan import ExecutablePlan
 from .hook import NEAR
@@ -38,15 +38,16 @@ def grabs_without_way(course: ExecutablePlan, error: float) -> list[int]:
     """
     robot, holds = course.task.robot, {hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}
     radius = max(hold.radius for hold in course.task.world.holds)
-    ways = Approaches(robot, legs_of(robot), lambda _: radius + error)
+    ways = Approaches(robot, legs_of(robot))
+    discs = discs_of(holds.values(), radius + error)
     rng = np.random.default_rng(SEED)
     maps = [{number: place + rng.uniform(-error, error, 2) for number, place in holds.items()} for _ in range(DRAWS)]
 
     def reaches(i: int, step: int, start: Floats) -> bool:
-        found = _way(ways, course, i, step, start, holds, math.sqrt(2.0) * error)
+        found = _way(ways, course, i, step, start, holds, error)
         if found is None or not found.shift.any():
             return found is not None
-        return all(_way(ways, course, i, step, start, drawn, math.sqrt(2.0) * error) is not None for drawn in maps)
+        return all(_way(ways, course, i, step, start, drawn, error) is not None for drawn in maps)
 
     waits: list[Floats | None] = [None] * len(robot.limbs)
     blocked = []
@@ -63,7 +64,7 @@ def grabs_without_way(course: ExecutablePlan, error: float) -> list[int]:
             elif old and not new:
                 waits[i] = start
             elif not new and start is not None:
-                way = park(ways, i, start, poses_between(course.pose(step - 1), course.pose(step)), holds)
+                way = park(ways, i, start, poses_between(course.pose(step - 1), course.pose(step)), discs)
                 waits[i] = start if way is None else way[-1]
     return blocked
 
@@ -83,7 +84,7 @@ def _drawn_back(course: ExecutablePlan, i: int, step: int, hold: Floats, radius:
 
 
 def _way(
-    ways: Approaches, course: ExecutablePlan, i: int, step: int, start: Floats, holds: dict[int, Floats], doubt: float
+    ways: Approaches, course: ExecutablePlan, i: int, step: int, start: Floats, holds: dict[int, Floats], error: float
 ) -> Approach | None:
     """A way to the hold that a limb takes in an action, as it is looked for when the limb is there."""
     task, names = course.task, [limb.name for limb in course.task.robot.limbs]
@@ -98,7 +99,9 @@ def _way(
     pose = course.pose(step)
     least = min(0.0, bears(pose)) - WEAKER
     radius = max(hold.radius for hold in task.world.holds)
-    hold = holds[course.holds(step)[names[i]]]
+    hold, doubt = holds[course.holds(step)[names[i]]], math.sqrt(2.0) * error
     distance = stand_off(task.robot.limbs[i], radius, doubt)
     wish = Wish(elbow=int(course.elbows[step, i]), stand_off=distance, near=NEAR + doubt)
-    return ways.find(i, start, pose, hold, holds, wish, stands=lambda pose: bears(pose) >= least)
+    return ways.find(
+        i, start, pose, hold, discs_of(holds.values(), radius + error), wish, stands=lambda pose: bears(pose) >= least
+    )
