@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_378,
+    "lines": 100_361,
     "files": 663,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 53,

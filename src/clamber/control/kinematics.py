@@ -43,6 +43,30 @@ def keep_three(row, at, vector):
 
 
 @inlined
+def column(matrix, k):
+    """A column of three rows."""
+    return matrix[0, k], matrix[1, k], matrix[2, k]
+
+
+@inlined
+def plus(a, b):
+    """The vector a + b."""
+    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
+
+
+@inlined
+def less(a, b):
+    """The vector a - b."""
+    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+
+
+@inlined
+def scaled(factor, a):
+    """The vector factor a."""
+    return factor * a[0], factor * a[1], factor * a[2]
+
+
+@inlined
 def dot(a, b):
     """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
