@@ -10,10 +10,10 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_361,
+    "lines": 100_322,
     "files": 663,
     f"files above {LONG} lines": 0,
-    f"functions with more than {MANY} parameters": 53,
+    f"functions with more than {MANY} parameters": 18,
     "median length of a line": 40,
     "90th percentile of the length of a line": 97,
 }

@@ -52,7 +52,9 @@ HOLDS = np.array(((0.2286, 0.02), (-0.2286, 0.0), (0.05, -0.25)))
 def test_the_estimate_is_exact_where_the_map_is(pose: Floats, angle_from: int) -> None:
     q = on_holds(pose, HOLDS)
     tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3), np.zeros(3)
-    count = estimate_body(LEGS, q, np.zeros((3, 2)), BOTH, HOLDS, pose[2], 0.0, angle_from, tips, speeds, found, twist)
+    count = estimate_body(
+        LEGS, (q, np.zeros((3, 2))), (BOTH, HOLDS), (pose[2], 0.0, angle_from), tips, speeds, found, twist
+    )
     assert count == 2
     np.testing.assert_allclose(found, pose, atol=1e-12)
 
@@ -64,7 +66,7 @@ def test_the_estimated_speed_is_the_derivative_of_the_pose(pose: Floats, rate: F
     qd = (ahead - behind) / (2 * step)
     tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3), np.zeros(3)
     estimate_body(
-        LEGS, on_holds(pose, HOLDS), qd, BOTH, HOLDS, pose[2], rate[2], angle_from, tips, speeds, found, twist
+        LEGS, (on_holds(pose, HOLDS), qd), (BOTH, HOLDS), (pose[2], rate[2], angle_from), tips, speeds, found, twist
     )
     np.testing.assert_allclose(twist, rate, atol=1e-7)
 
@@ -73,7 +75,7 @@ def estimated(angle_from: int, pose: Floats, believed: Floats, before: Floats) -
     """Where the body is believed to be that truly is at `pose`, the holds off."""
     tips, speeds, found, twist = np.zeros((3, 2)), np.zeros((3, 2)), before.copy(), np.zeros(3)
     q = on_holds(pose, HOLDS)
-    estimate_body(LEGS, q, np.zeros((3, 2)), BOTH, believed, pose[2], 0.0, angle_from, tips, speeds, found, twist)
+    estimate_body(LEGS, (q, np.zeros((3, 2))), (BOTH, believed), (pose[2], 0.0, angle_from), tips, speeds, found, twist)
     return found
 
 
@@ -132,7 +134,8 @@ def _command(limit: int, wanted: Floats, *, mapping: int = THESIS) -> tuple[Floa
     fed = np.array((0.0, 38.0, 0.0))
     drags, cuts = np.zeros((3, 2)), np.zeros((MOST_CUTS, 2))
     least = np.full(3, 0.3)
-    command_contact_forces(LEGS, q, BOTH, pose, HOLDS, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces)
+    asked = wanted, fed, mapping, limit
+    command_contact_forces((LEGS, q, pose, HOLDS), BOTH, asked, least, drags, cuts, pulls, forces)
     return q, pulls, forces
 
 

@@ -42,7 +42,9 @@ def on_top(pose: Floats, holds: Floats) -> Floats:
 
 def shared(pose: Floats, a: int, b: int, more: Floats, holds: Floats = HOLDS) -> tuple[Floats, Floats, float, float]:
     q, arms, forces = on_top(pose, holds), holds - pose[:2], np.zeros((3, 2))
-    margin, part = pair_forces(LEGS, q, a, b, pose, arms, WEIGHT, more, np.zeros((MOST_CUTS, 2)), forces)
+    margin, part = pair_forces(
+        (LEGS, q, pose, arms), (a, b), (tuple(WEIGHT), tuple(more)), np.zeros((MOST_CUTS, 2)), forces
+    )
     return q, forces, margin, part
 
 

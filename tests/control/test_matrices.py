@@ -81,7 +81,7 @@ def test_the_damped_inverse_is_the_least_of_its_cost(seed: int, rows: int, more:
     n = rows + more
     task, share, wanted = rng.normal(size=(rows, n)), rng.uniform(0.1, 1.0, n), rng.normal(size=rows)
     out = np.empty(n)
-    invert_motion(room(task), rows, n, share, lambda2, wanted, np.empty((9, 9)), np.empty(9), out)
+    invert_motion(room(task), (rows, n), share, lambda2, wanted, (np.empty((9, 9)), np.empty(9)), out)
     condition = np.linalg.cond(task) ** 2 / share.min()
     slope = task.T @ (task @ out - wanted) + lambda2 * share * out
     np.testing.assert_allclose(slope, 0.0, atol=1e-13 * condition)

@@ -24,7 +24,7 @@ def test_the_torque_is_the_force_through_the_jacobian_and_the_limbs_own_weight()
         q, force = rng.uniform(-1.2, 1.2, 2), rng.normal(0.0, 10.0, 2)
         pose = np.array((0.3, -0.2, 0.4))
         torques, loads = np.zeros(2), np.zeros(2)
-        pull_torques(BODY.legs[i], q, np.zeros(2), pose, STILL, force, 150.0, torques, loads)
+        pull_torques(BODY.legs[i], (q, np.zeros(2)), (pose, STILL), force, 150.0, torques, loads)
         angle = -(pose[2] + limb.port_angle)
         turn = np.array(((np.cos(angle), -np.sin(angle)), (np.sin(angle), np.cos(angle))))
         chain, down = chain_of_limb(ROBOT, limb.name), turn @ np.array((0.0, -GRAVITY))
@@ -33,7 +33,7 @@ def test_the_torque_is_the_force_through_the_jacobian_and_the_limbs_own_weight()
         assert np.all(np.abs(torques - both) <= friction + 1e-12)
         np.testing.assert_allclose(loads, np.sign(torques) * np.maximum(np.abs(torques) - friction, 0.0), atol=1e-9)
         turning = np.sign(both - weight) * 1e3
-        pull_torques(BODY.legs[i], q, turning, pose, STILL, force, 0.0, torques, loads)
+        pull_torques(BODY.legs[i], (q, turning), (pose, STILL), force, 0.0, torques, loads)
         np.testing.assert_allclose(loads, torques - friction * np.sign(turning), atol=1e-9)
 
 
@@ -42,7 +42,7 @@ def test_damping_takes_power_from_a_tip_that_moves_with_the_body_too() -> None:
     for i in range(3):
         q, qd, twist = rng.uniform(-1.0, 1.0, 2), rng.normal(0.0, 1.0, 2), np.zeros(3)
         still, damped, loads = np.zeros(2), np.zeros(2), np.zeros(2)
-        arguments = (BODY.legs[i], q, qd, STILL, twist, np.zeros(2))
+        arguments = (BODY.legs[i], (q, qd), (STILL, twist), np.zeros(2))
         pull_torques(*arguments, 0.0, still, loads)
         pull_torques(*arguments, 150.0, damped, loads)
         assert (damped - still) @ qd < 0.0
@@ -53,8 +53,8 @@ def test_a_pressed_joint_comes_to_rest_at_the_side_that_its_load_pushes_it_to() 
     loads = np.array(((1.0, -1.0), (-2.0, 0.5), (0.0, 3.0)))
     for _ in range(400):
         follow_play(
-            BODY.legs, np.zeros((3, 2)), np.zeros((3, 2)), np.zeros(3, np.int64), np.zeros((3, 2)), 0.0,
-            np.ones(3, np.int64), loads, np.array((0.025, half)), play, sure,
+            BODY.legs, (np.zeros((3, 2)), np.zeros((3, 2))), 0.0, (np.zeros(3, np.int64), np.zeros((3, 2))),
+            (np.ones(3, np.int64), loads), np.array((0.025, half)), play, sure,
         )  # fmt: skip
     np.testing.assert_allclose(play, half * np.tanh(loads / 0.05), atol=1e-4)
     np.testing.assert_allclose(sure, np.tanh(np.abs(loads) / 0.05), atol=1e-3)
@@ -69,7 +69,7 @@ def holding_joints(rng: np.random.Generator, speeds: Floats) -> tuple[Floats, Fl
     play, sure = before.copy(), rng.uniform(0.0, 1.0, (3, 2))
     for _ in range(2000):
         follow_play(
-            BODY.legs, q, speeds, np.ones(3, np.int64), forces, angle, np.zeros(3, np.int64), np.zeros((3, 2)), rate,
+            BODY.legs, (q, speeds), angle, (np.ones(3, np.int64), forces), (np.zeros(3, np.int64), np.zeros((3, 2))), rate,
             play, sure,
         )  # fmt: skip
     torques, dry = np.zeros((3, 2)), np.zeros((3, 2))

@@ -31,7 +31,7 @@ class PlainBody(WholeBody):
             (self.q - self.play, self.settled_tips, np.zeros((self.n, 2)), self.settled, np.zeros(3)),
         ):
             estimate_body(
-                self.legs, angles, self.qd, weights, self._holds, angle, angle_speed, angle_from,
+                self.legs, (angles, self.qd), (weights, self._holds), (angle, angle_speed, angle_from),
                 tips, speeds, pose, twist,
             )  # fmt: skip
 
@@ -87,7 +87,7 @@ class PlainBody(WholeBody):
         def share(held: Floats) -> tuple[Floats, Floats]:
             pulls, forces = np.zeros((n, 2)), np.zeros((n, 2))
             command_contact_forces(
-                self.legs, self.q, held, self.pose, arms, wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit],
+                (self.legs, self.q, self.pose, arms), held, (wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit]),
                 np.full(n, gains.alpha), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
             )  # fmt: skip
             return pulls, forces
@@ -107,10 +107,8 @@ class PlainBody(WholeBody):
                 force = gains.cling * self.grab_direction(i) + self._towards(task.place - self.tip(i))
                 pull_torques(
                     self.legs[i],
-                    self.q[i],
-                    self.qd[i],
-                    self.pose,
-                    self.twist,
+                    (self.q[i], self.qd[i]),
+                    (self.pose, self.twist),
                     force,
                     at.CLING_DAMPING,
                     torques,
@@ -120,10 +118,8 @@ class PlainBody(WholeBody):
             elif task.mode == "contact_push":
                 pull_torques(
                     self.legs[i],
-                    self.q[i],
-                    self.qd[i],
-                    self.pose,
-                    self.twist,
+                    (self.q[i], self.qd[i]),
+                    (self.pose, self.twist),
                     task.force,
                     task.damping,
                     torques,
@@ -150,7 +146,14 @@ class PlainBody(WholeBody):
                 most = gains.firm if task.pressed else gains.gentle
                 np.clip(torques, -most, most, out=torques)
         follow_play(
-            self.legs, self.q, self.qd, self.held, forces, self.pose[2], pressed, loads, self._lag, self.play, self.sure
+            self.legs,
+            (self.q, self.qd),
+            self.pose[2],
+            (self.held, forces),
+            (pressed, loads),
+            self._lag,
+            self.play,
+            self.sure,
         )
         return self.torques
 

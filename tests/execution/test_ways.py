@@ -8,17 +8,14 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.control.limb_chain import legs_of
-from clamber.families.climber.control.swing_path import BESIDE, FAR, clearances, find_way
+from clamber.families.climber.control.swing_path import BESIDE, FAR, clearances
 from clamber.families.climber.execution.approach import (
-    CELLS,
     HOOK,
     LEAST_CLEARANCE,
-    MOST_POINTS,
     Approaches,
     Wish,
     discs_near,
     discs_of,
-    wall_of,
 )
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.parking import SPARE, TIGHT, park, passes, poses_between
@@ -139,11 +136,11 @@ def test_the_clearance_of_a_limb_is_its_distance_from_the_nearest_peg_and_side_o
     holds = {k: place for k, place in enumerate(rng.uniform(-0.35, 0.35, (int(rng.integers(0, 12)), 2)))}
     angles = rng.uniform(-np.pi, np.pi, (60, 2))
     discs, rooms = discs_near(discs_of(holds.values(), PEG), pose), np.empty(len(angles))
-    clearances(leg, angles, discs, np.empty((0, 5)), robot.link_radius, HOOK, rooms)
+    clearances(leg, angles, (discs, np.empty((0, 5)), robot.link_radius, HOOK), rooms)
     expected = [least_room(robot, RIGHT, q, pose, holds) if holds else FAR for q in angles]
     np.testing.assert_allclose(rooms, expected, atol=4e-4)
     walls = np.column_stack((rng.uniform(-0.5, 0.5, (3, 4)), np.full(3, PEG)))
-    clearances(leg, angles, np.empty((0, 3)), walls, robot.link_radius, np.zeros(2), rooms)
+    clearances(leg, angles, (np.empty((0, 3)), walls, robot.link_radius, np.zeros(2)), rooms)
     along = np.linspace(0.0, 1.0, 300)[:, None]
     for q, room in zip(angles, rooms, strict=True):
         first, second = leg["port_angle"] + q[0], leg["port_angle"] + q.sum() + leg["beta"]
@@ -300,19 +297,12 @@ def test_a_hand_over_to_all_that_hold_ends_the_one_before() -> None:
 def test_a_limb_beside_a_hold_leaves_it_first_and_does_not_sweep_over_it(
     pose: tuple[float, float, float], start: tuple[float, float]
 ) -> None:
-    robot, holds, q = libra(), places_of("modified-ladder"), np.radians(start)
-    limb, path = robot.limbs[LEFT], np.zeros((MOST_POINTS, 2))
-    lower, upper = (
-        np.array([getattr(joint, end) for joint in (limb.shoulder, limb.elbow)]) for end in ("lower", "upper")
-    )
-    discs = discs_near(discs_of(holds.values(), PEG), np.array(pose))
-    count = find_way(
-        legs_of(robot)[LEFT], lower, upper, CELLS, q, np.radians((-51.6, 28.8)), discs, wall_of(robot),
-        robot.link_radius, HOOK, LEAST_CLEARANCE, path,
-    )  # fmt: skip
+    ways, holds, q = approaches(), places_of("modified-ladder"), np.radians(start)
+    robot, obstacles = ways.robot, ways.obstacles(discs_near(discs_of(holds.values(), PEG), np.array(pose)))
+    way = ways.way(LEFT, q, np.radians((-51.6, 28.8)), obstacles)
     tight = least_room(robot, LEFT, q, np.array(pose), holds)
-    assert count and tight < -0.01
-    for a, b in pairwise(path[:count]):
+    assert way is not None and tight < -0.01
+    for a, b in pairwise(way):
         for u in np.linspace(0.0, 1.0, 20):
             share = min(1.0, float(np.abs(a + u * (b - a) - q).max()) / BESIDE)
             room = least_room(robot, LEFT, a + u * (b - a), np.array(pose), holds)

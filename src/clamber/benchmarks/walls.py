@@ -54,9 +54,8 @@ class Walled:
         margins = np.zeros(len(self.problem.checks))
         first = total = 0
         while first < len(self.stances):
-            n, first = expand(
-                self.problem.params.record, self.stances, first, len(self.stances), codes, margins, children, parent, code
-            )  # fmt: skip
+            which, scratch = (first, len(self.stances)), (codes, margins)
+            n, first = expand(self.problem.params.record, self.stances, which, scratch, children, parent, code)
             total += n
         return total
 

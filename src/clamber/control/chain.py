@@ -180,7 +180,7 @@ class Chain:
         frames, tip = self._placed(q)
         torques, drift = np.zeros(self.n), np.zeros(AXES)
         speeds = np.ascontiguousarray(qd, dtype=np.float64)
-        accelerate(self.joints, self.root, frames, tip, speeds, np.zeros(self.n), True, drift, torques)
+        accelerate(self.joints, self.root, frames, tip, (speeds, np.zeros(self.n)), True, drift, torques)
         return torques, drift
 
 

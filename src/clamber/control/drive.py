@@ -10,7 +10,7 @@ from .friction import feed_friction
 from .hybrid import hybrid
 from .implicit_admittance import implicit_admittance
 from .implicit_force import implicit_force
-from .inverse_motion import invert_motion
+from .inverse_motion import damped_motion
 from .jacobian_transpose import jacobian_transpose
 from .joint_pd import joint_pd
 from .kinematics import FRAME, accelerate
@@ -24,7 +24,6 @@ from .law_state import (
     REST,
     SHARE,
     SPARE,
-    SQUARE,
     SQUARES,
     TASK,
     TIP,
@@ -56,8 +55,7 @@ IMPLICIT_FORCE = 10
 
 
 @inlined
-def _follow(law, joints, root, settings, aim, state, memory, room, report):
-    given = joints, root, settings, aim, state, memory, room, report
+def _follow(law, given):
     if law == SCCT:
         scct(*given)
     elif law == JACOBIAN_TRANSPOSE:
@@ -131,17 +129,8 @@ def drive(joints, root, settings, aims, sensed, memory, room, told):
             report.error[i] = lines[ERROR, i]
         if chosen.feed_bias or chosen.feed_gravity:
             speeds = qd if chosen.feed_bias else lines[REST]
-            accelerate(
-                joints,
-                root,
-                frames,
-                lines[TIP],
-                speeds,
-                lines[REST],
-                chosen.feed_gravity != 0,
-                lines[DRIFT],
-                lines[BIAS],
-            )
+            motion, falls = (speeds, lines[REST]), chosen.feed_gravity != 0
+            accelerate(joints, root, frames, lines[TIP], motion, falls, lines[DRIFT], lines[BIAS])
         else:
             for j in range(n):
                 lines[BIAS, j] = 0.0
@@ -150,7 +139,7 @@ def drive(joints, root, settings, aims, sensed, memory, room, told):
         if chosen.torque_sensor == AT_BASE:
             read_mount(joints, root, frames, lines[TIP], mounts[b], lines[LINK], lines[SPARE])
             into_task(chosen, lines[SPARE], lines[FELT])
-        _follow(chosen.law, joints, root, chosen, aim, states[b], memory[b], room, report)
+        _follow(chosen.law, (joints, root, chosen, aim, states[b], memory[b], room, report))
         _feed_forward(joints, chosen, q, qd, lines, squares, report)
         feed_friction(joints, chosen, qd, memory[b, last - n : last], lines, squares, report)
         sums = memory[b, last - 2 * n : last - n]
@@ -189,8 +178,6 @@ def _feed_forward(joints, settings, q, qd, lines, squares, report):
     rows = settings.n_rows
     task = squares[TASK]
     torque = lines[TORQUE]
-    held = lines[SPARE + 2]
-    motion = lines[SPARE + 1]
     for j in range(n):
         torque[j] += lines[BIAS, j]
     if settings.feed_force:
@@ -199,9 +186,7 @@ def _feed_forward(joints, settings, q, qd, lines, squares, report):
             force[i] = 0.0 if settings.forced[i] else lines[WANTED_FORCE, i]
         pull_back(task, rows, n, force, torque)
     if settings.feed_acceleration and settings.law != OPERATIONAL_SPACE:
-        invert_motion(
-            task, rows, n, lines[SHARE], report.lambda2, lines[WANTED_ACCELERATION], squares[SQUARE], held, motion
-        )
+        motion = damped_motion(n, settings, lines[WANTED_ACCELERATION], lines, squares, report)
         for j in range(n):
             torque[j] += joints[j].rotor * motion[j]
     if rows < n and settings.law != OPERATIONAL_SPACE:
@@ -215,14 +200,13 @@ def _lean(joints, settings, q, qd, lines, squares, report):
     rows = settings.n_rows
     task = squares[TASK]
     pull = lines[SPARE]
-    motion = lines[SPARE + 1]
     through = lines[SPARE + 3]
     lean(joints, settings, q, qd, pull)
     for i in range(rows):
         through[i] = 0.0
         for j in range(n):
             through[i] += task[i, j] * pull[j]
-    invert_motion(task, rows, n, lines[SHARE], report.lambda2, through, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = damped_motion(n, settings, through, lines, squares, report)
     for j in range(n):
         lines[TORQUE, j] += lines[SHARE, j] * (pull[j] - motion[j])
 

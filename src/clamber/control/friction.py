@@ -10,8 +10,8 @@ right. Until a joint has moved, that is "torque".
 import math
 
 from ..compiled import inlined
-from .inverse_motion import invert_motion
-from .law_state import FRICTION, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE
+from .inverse_motion import damped_motion
+from .law_state import FRICTION, SPARE, TORQUE, WANTED_RATE
 
 FROM_AIM = 0
 """Friction is fed forward by the speed that the aim asks for."""
@@ -46,10 +46,7 @@ def feed_friction(joints, settings, qd, ways, lines, squares, report):
     motion = lines[SPARE + 1]
     source = settings.friction_from
     if source in (FROM_AIM, FROM_LAST):
-        held = lines[SPARE + 2]
-        rate = lines[WANTED_RATE]
-        task = squares[TASK]
-        invert_motion(task, settings.n_rows, n, lines[SHARE], report.lambda2, rate, squares[SQUARE], held, motion)
+        damped_motion(n, settings, lines[WANTED_RATE], lines, squares, report)
     else:
         for j in range(n):
             motion[j] = qd[j] if source == FROM_MEASURED else 0.0

@@ -27,19 +27,20 @@ def damping_of(settings, task, n_rows, n, gram, report):
 
 
 @kernel
-def invert_motion(task, n_rows, n, share, lambda2, wanted, square, held, out):
+def invert_motion(task, size, share, lambda2, wanted, scratch, out):
     """Joint motion that gives the task motion `wanted`.
 
     Args:
         task: Task Jacobian T, shape (>= n_rows, >= n).
-        n_rows, n: Rows and joints that count.
+        size: Rows and joints that count.
         share: Weights W, shape (n,), positive.
         lambda2: Damping; 0 for none.
         wanted: Task motion, shape (>= n_rows,).
-        square: Scratch matrix.
-        held: Scratch vector.
+        scratch: A matrix and a vector.
         out: Joint motion, shape (n,); zero where T has no inverse and there is no damping.
     """
+    n_rows, n = size
+    square, held = scratch
     if n_rows == n and lambda2 == 0.0:
         for i in range(n):
             out[i] = wanted[i]
@@ -71,8 +72,13 @@ def invert_motion(task, n_rows, n, share, lambda2, wanted, square, held, out):
 @inlined
 def joint_motion(n, settings, wanted, room, report):
     """Motion of the first `n` joints that gives the task motion `wanted`, damped where the task is nearly singular: scratch of `room`."""
-    lines, squares = room.lines, room.squares
-    task, rows, motion = squares[TASK], settings.n_rows, lines[SPARE + 1]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
-    invert_motion(task, rows, n, lines[SHARE], lambda2, wanted, squares[SQUARE], lines[SPARE + 2], motion)
+    damping_of(settings, room.squares[TASK], settings.n_rows, n, room.squares[GRAM], report)
+    return damped_motion(n, settings, wanted, room.lines, room.squares, report)
+
+
+@inlined
+def damped_motion(n, settings, wanted, lines, squares, report):
+    """The same with the damping that is in the report."""
+    motion, scratch = lines[SPARE + 1], (squares[SQUARE], lines[SPARE + 2])
+    invert_motion(squares[TASK], (settings.n_rows, n), lines[SHARE], report.lambda2, wanted, scratch, motion)
     return motion

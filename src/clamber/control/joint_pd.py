@@ -10,7 +10,7 @@ ticks. Stiffness cannot be chosen by direction.
 import math
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion
+from .inverse_motion import damped_motion, damping_of, invert_motion
 from .kinematics import fill_jacobian, place_chain
 from .law_state import GRAM, JACOBIAN, OTHER, SHARE, SPARE, SQUARE, TASK, TORQUE, WANTED_RATE, fill_error, fill_task
 
@@ -37,17 +37,14 @@ def joint_pd(joints, root, settings, aim, state, memory, room, report):
     frames, lines, squares = room.frames, room.lines, room.squares
     q, qd = state[0], state[1]
     n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    damping_of(settings, squares[TASK], settings.n_rows, n, squares[GRAM], report)
     angles = memory[1 : 1 + n]
     if memory[0] == 0.0:
         memory[0] = 1.0
         for j in range(n):
             angles[j] = q[j]
     _approach(joints, root, settings, aim, angles, frames[n:], lines, squares)
-    motion = lines[SPARE + 1]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, lines[WANTED_RATE], squares[SQUARE], lines[SPARE + 2], motion)
+    motion = damped_motion(n, settings, lines[WANTED_RATE], lines, squares, report)
     for j in range(n):
         speed = motion[j] if settings.feed_velocity else 0.0
         pull = settings.joint_kp * (angles[j] - q[j]) + settings.joint_kd * (speed - qd[j])
@@ -87,9 +84,8 @@ def _approach(joints, root, settings, aim, angles, frames, lines, squares):
         fill_jacobian(joints, frames, tip, squares[JACOBIAN])
         fill_task(settings, squares[JACOBIAN], n, task)
         # damped in proportion to the error (Chan and Lawrence 1988): far or out of reach it is careful, near it is Newton's
-        invert_motion(
-            task, rows, n, lines[SHARE], LEAST + care * largest, error, squares[SQUARE], lines[SPARE + 2], motion
-        )
+        scratch = squares[SQUARE], lines[SPARE + 2]
+        invert_motion(task, (rows, n), lines[SHARE], LEAST + care * largest, error, scratch, motion)
         longest = 0.0
         for j in range(n):
             longest = max(longest, abs(motion[j]))

@@ -227,7 +227,7 @@ def _carried(row, way):
 
 
 @kernel
-def accelerate(joints, root, frames, tip, qd, qdd, with_gravity, tip_acceleration, torques):
+def accelerate(joints, root, frames, tip, motion, with_gravity, tip_acceleration, torques):
     """Recursive Newton-Euler: torques that give the joints an acceleration, and the tip's acceleration that follows.
 
     The inertia of motors and gears (`rotor`) counts; damping and friction do not.
@@ -237,13 +237,13 @@ def accelerate(joints, root, frames, tip, qd, qdd, with_gravity, tip_acceleratio
         root: One record of `ROOT`.
         frames: As `place_chain` left them; the moving columns are filled.
         tip: As `place_chain` left it.
-        qd: Joint speeds [rad/s], shape (n,).
-        qdd: Joint accelerations [rad/s^2], shape (n,).
+        motion: Joint speeds [rad/s] and accelerations [rad/s^2], shape (n,) each.
         with_gravity: Whether the torques carry the weight.
         tip_acceleration: Filled with J qdd + Jdot qd, shape (6,) [m/s^2], [rad/s^2].
         torques: Filled with M qdd + h (+ g), shape (n,) [N m].
     """
     n = joints.size
+    qd, qdd = motion
     g = root[0].gravity
     for j in range(n):
         row = frames[j]

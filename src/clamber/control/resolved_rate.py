@@ -16,8 +16,8 @@ fed back: the tip drifts off by what the Jacobian changes on the way, and after 
 """
 
 from ..compiled import kernel
-from .inverse_motion import damping_of, invert_motion, joint_motion
-from .law_state import ERROR, GRAM, SHARE, SPARE, SQUARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
+from .inverse_motion import damped_motion, damping_of, joint_motion
+from .law_state import ERROR, GRAM, SHARE, SPARE, TASK, TIP, TORQUE, WANTED_RATE, fill_error
 
 
 @kernel
@@ -42,11 +42,8 @@ def resolved_rate_plain(joints, root, settings, aim, state, memory, room, report
     lines, squares = room.lines, room.squares
     q, qd = state[0], state[1]
     n = joints.size
-    rows = settings.n_rows
-    task = squares[TASK]
-    lambda2 = damping_of(settings, task, rows, n, squares[GRAM], report)
+    damping_of(settings, squares[TASK], settings.n_rows, n, squares[GRAM], report)
     moved = lines[SPARE]
-    motion = lines[SPARE + 1]
     angles = memory[1 : 1 + n]
     before = memory[1 + n : 13 + n]
     if memory[0] == 0.0:
@@ -60,10 +57,10 @@ def resolved_rate_plain(joints, root, settings, aim, state, memory, room, report
         before[i] = aim.place[i]
         for k in range(3):
             before[3 + 3 * i + k] = aim.turn[i, k]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, moved, squares[SQUARE], lines[SPARE + 2], motion)
+    motion = damped_motion(n, settings, moved, lines, squares, report)
     for j in range(n):
         angles[j] += motion[j]
-    invert_motion(task, rows, n, lines[SHARE], lambda2, lines[WANTED_RATE], squares[SQUARE], lines[SPARE + 2], motion)
+    motion = damped_motion(n, settings, lines[WANTED_RATE], lines, squares, report)
     for j in range(n):
         speed = motion[j] if settings.feed_velocity else 0.0
         pull = settings.joint_kp * (angles[j] - q[j]) + settings.joint_kd * (speed - qd[j])

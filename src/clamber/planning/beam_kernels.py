@@ -9,26 +9,25 @@ from .stance_table import slot_of
 
 
 @kernel
-def choose(p, parents, order, scored_children, width, niche, kept, niches, margins, children, chosen):
+def choose(p, order, scored, most, kept, niches, margins, taken):
     """Take children that hold in order of their score: those with a key that no layer had, at most `niche` per niche, up to `width`.
 
     Args:
         p: A family's parameters.
-        parents: Stances.
         order: Children, best first: parent times the slots of each parent, plus slot.
-        sprouts: Codes, cells and keys as `Problem.expand_scored` wrote them; what it left to be judged is judged here.
-        width: Most children to take.
-        niche: Most of one niche.
+        scored: Parents, and codes, cells and keys as `Problem.expand_scored` wrote them; what it left to be judged is judged here.
+        most: Children to take, and of one niche.
         kept: Keys of all layers so far, with room for `width` more, their number, and a hash table of them; the new ones are added.
         niches: Scratch: a hash table of niches and how often each was taken, all 0; at least twice `width` long, a power of two.
         margins: Scratch of the family's checks.
-        children: Output: the stances taken, with room for one more.
-        chosen: Output: which children they are.
+        taken: Output: the stances taken, with room for one more, and which children they are.
 
     Returns:
         How many were taken, and how many were judged.
     """
-    codes, cells, keys = scored_children
+    parents, codes, cells, keys = scored
+    width, niche = most
+    children, chosen = taken
     kept_keys, n_kept, table = kept
     niches, counts = niches
     slots = codes.shape[1]

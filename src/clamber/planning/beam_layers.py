@@ -115,10 +115,9 @@ def search_layers(
             kept.make_room(beam.width)
             n, last = 0, False
             for order, most in ((ended, 1), (children[np.argsort(-scores, kind="stable")], beam.width)):
-                n, judged = choose(
-                    params, layer, order, (out.code, out.cell, out.keys), most, beam.niche, (kept.keys, kept.n, kept.table),
-                    (niches, np.zeros(len(niches), np.int32)), margins, taken, chosen,
-                )  # fmt: skip
+                scored, known = (layer, out.code, out.cell, out.keys), (kept.keys, kept.n, kept.table)
+                counts = niches, np.zeros(len(niches), np.int32)
+                n, judged = choose(params, order, scored, (most, beam.niche), known, counts, margins, (taken, chosen))
                 checks += judged if drafts else 0
                 last = n > 0 and most == 1
                 if last:

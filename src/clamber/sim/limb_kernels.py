@@ -24,19 +24,20 @@ def look_behind_gears(qpos, qvel, stride, states):
 
 
 @kernel
-def push_tips(joints, root, states, fx, fy, frames, tip, pushed, wrenches):
-    """Put the force (fx, fy) on every tip.
+def push_tips(joints, root, states, force, frames, tip, pushed, wrenches):
+    """Put a force on every tip.
 
     Args:
         joints: Records of `JOINT` with the payload, shape (n,): the centre of mass is that of what really moves.
         root: One record of `ROOT`, shape (1,).
         states: True joint angles and speeds, shape (batch, 2, n).
-        fx, fy: Force on the tip, base frame [N].
+        force: On the tip, base frame, x and y [N].
         frames: Scratch, shape (n, FRAME).
         tip: Scratch, shape (12,).
         pushed: Filled: force and moment on the last link at its centre of mass, base frame, shape (batch, 6).
         wrenches: Filled: wrench of each limb on what pushes it, shape (batch, 6).
     """
+    fx, fy = force
     last = joints.size - 1
     for b in range(states.shape[0]):
         place_chain(joints, root, states[b, 0], frames, tip)

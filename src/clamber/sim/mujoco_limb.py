@@ -114,7 +114,7 @@ class MujocoLimb:
         if self.flaws.push is not None:
             force = self.flaws.push.at((self.tick + 0.5) * self.period)
             if self._hand is None:
-                push_tips(*self._push_chain, *force, *self._push_arrays)
+                push_tips(*self._push_chain, force, *self._push_arrays)
             else:
                 self._hand[:, :2] = force
         steps, done, mean = self.flaws.steps, 0, self._truth.torques

@@ -81,15 +81,12 @@ class OdeLimb:
         step_limbs(
             self._joints,
             self.chain.root,
-            self._electronics.wanted,
-            self._electronics.limits,
-            self._electronics.no_load,
+            (self._electronics.wanted, self._electronics.limits, self._electronics.no_load),
             self._force,
-            self.flaws.steps,
-            1.0 / self.flaws.physics_rate,
+            (self.flaws.steps, 1.0 / self.flaws.physics_rate),
             self._truth.states,
             self._truth.torques,
-            *self._scratch,
+            self._scratch,
         )
         self.tick += 1
 

@@ -72,23 +72,23 @@ def _push_joints(joints, root, q, force, frames, tip, jacobian, out):
 
 
 @kernel
-def step_limbs(joints, root, wanted, limits, no_load, force, steps, time, states, torques, frames, jacobian, lines):
+def step_limbs(joints, root, motors, force, steps, states, torques, scratch):
     """Move a batch of limbs by some physics steps; each limb by itself, so a batch gives the bits of single runs.
 
     Args:
         joints: Records of `JOINT`, shape (n,).
         root: One record of `ROOT`, shape (1,).
-        wanted: Torques asked of the motors, shape (batch, n) [N m].
-        limits, no_load: Of the motors, as in `limit_torques`; they count anew at every step.
+        motors: Torques asked of them, shape (batch, n) [N m], and their limits and speeds without load, as in `limit_torques`, which count
+            anew at every step.
         force: On the tip, base frame, x and y [N].
-        steps: How many.
-        time: Of one step [s].
+        steps: How many, and the time of one [s].
         states: Joint angles and speeds, moved on, shape (batch, 2, n).
         torques: Filled with what the motors gave, the mean of all steps, shape (batch, n) [N m].
-        frames: Scratch, shape (n, FRAME).
-        jacobian: Scratch, shape (6, n).
-        lines: Scratch, shape (4, at least n and 12).
+        scratch: Frames, shape (n, FRAME), a Jacobian, shape (6, n), and lines, shape (4, at least n and 12).
     """
+    wanted, limits, no_load = motors
+    count, time = steps
+    frames, jacobian, lines = scratch
     n = joints.size
     tip = lines[0]
     pushed = lines[1]
@@ -97,7 +97,7 @@ def step_limbs(joints, root, wanted, limits, no_load, force, steps, time, states
     for b in range(states.shape[0]):
         q = states[b, 0]
         qd = states[b, 1]
-        for k in range(steps):
+        for k in range(count):
             for j in range(n):
                 given[j] = limited(wanted[b, j], qd[j], limits[j], no_load[j])
                 before = torques[b, j] if k else given[j]

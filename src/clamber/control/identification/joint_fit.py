@@ -58,7 +58,7 @@ def link_loads(chain: Chain, angles: Sequence[Floats], speeds: Sequence[Floats])
         place_chain(joints, chain.root, q[k], frames, tip)
         fill_inertia(joints, frames, inertia[k])
         place_chain(joints, chain.root, q[k], frames, tip)
-        accelerate(joints, chain.root, frames, tip, qd[k], still, True, drift, bias[k])
+        accelerate(joints, chain.root, frames, tip, (qd[k], still), True, drift, bias[k])
     together = np.ascontiguousarray(q.T)
     return [LinkLoad(inertia[:, j], j, np.ascontiguousarray(bias[:, j]), together) for j in range(n)]
 

@@ -80,9 +80,7 @@ def _random_population(
     genes = np.zeros((n, longest), np.int32)
     lengths = np.full(n, min(search.first_length, longest), np.int32)
     for i in range(n):
-        random_genes(
-            genes[i], 0, lengths[i], entries, problem.actions.runs, search.run_length, seed, generation, i
-        )  # fmt: skip
+        random_genes(genes[i], 0, lengths[i], problem.actions.runs, search.run_length, (seed, generation, i))
     for i, given in enumerate(seeds[:n]):
         lengths[i] = min(len(given), longest)
         genes[i, : lengths[i]] = given[:longest]
@@ -118,11 +116,14 @@ def next_generation(problem: CompiledProblem, profile: Profile, state: Evolution
     child_lengths = np.zeros(n - keep, np.int32)
     state.generation += 1
     breed(
-        population.genes, population.lengths, cuts, _wheel(scores, search), children, child_lengths,
-        problem.actions.runs, population.follow, CROSSOVERS.index(search.crossover), search.cut_spread,
-        search.tail_share, max(1, search.tail_length), search.run_length, search.mutation, search.mutation_inserts,
-        seed, state.generation,
-    )  # fmt: skip
+        (population.genes, population.lengths, cuts, _wheel(scores, search), population.follow),
+        (children, child_lengths),
+        problem.actions.runs,
+        (CROSSOVERS.index(search.crossover), search.cut_spread),
+        (search.tail_share, max(1, search.tail_length), search.run_length),
+        (search.mutation, search.mutation_inserts),
+        (seed, state.generation),
+    )
     records = problem.rollout(children, child_lengths, weights_for(problem, profile), search.longest)
     _count(state, records)
     fresh = np.full((n - keep, population.follow.shape[1]), -1, np.int32)
@@ -261,17 +262,7 @@ def polish(
     """
     children = np.zeros((BATCH, len(genes) + 1), np.int32)
     lengths = np.zeros(BATCH, np.int32)
-    vary(
-        genes,
-        len(genes),
-        children,
-        lengths,
-        len(problem.actions),
-        problem.actions.runs,
-        profile.search.run_length,
-        seed,
-        turn,
-    )
+    vary(genes, children, lengths, problem.actions.runs, profile.search.run_length, seed, turn)
     weights = np.zeros(len(problem.features))
     records = problem.rollout(children, lengths, weights, profile.search.longest)
     state.evaluations += BATCH

@@ -40,11 +40,14 @@ def pick(wheel, bits):
 
 
 @kernel
-def random_genes(row, first, end, n_entries, runs, run_length, seed, generation, child):
+def random_genes(row, first, end, runs, run_length, counters):
     """Fill genes `first` to `end` with random entries; entries that may run are repeated 1 to `run_length` times.
 
-    With a run length of 1 every gene is drawn alone, as in the thesis's first generation.
+    With a run length of 1 every gene is drawn alone, as in the thesis's first generation. `runs` and `counters` as in `breed`, the number
+    of the child last.
     """
+    seed, generation, child = counters
+    n_entries = runs.shape[0]
     at = first
     draw_number = 64
     while at < end:
@@ -60,37 +63,36 @@ def random_genes(row, first, end, n_entries, runs, run_length, seed, generation,
 
 
 @kernel
-def breed(
-    parents, parent_lengths, cuts, wheel, children, child_lengths, runs, first_genes,
-    crossover, cut_spread, tail_share, tail_length, run_length, mutation, insert_only, seed, generation,
-):  # fmt: skip
+def breed(parents, children, runs, crossing, tails, mutating, counters):
     """Make a generation of children.
 
     Args:
-        parents, parent_lengths: Genes of the parents, shape (n, longest), and how many each has.
-        cuts: Where each parent failed, or the end of its best prefix, shape (n,).
-        wheel: Cumulative weights of selection, shape (n,).
-        children, child_lengths: Output.
+        parents: Their genes, shape (n, longest), how many each has, where each failed, or the end of its best prefix, shape (n,);
+            cumulative weights of selection, shape (n,); and for each the entries that hold at its cut (the configuration filter): count
+            in column 0, then the entries, a count of 0 means any, shape (n, 1 + n_entries).
+        children: Output: genes and how many each has.
         runs: Table entries that may run, shape (n_entries,).
-        first_genes: For each parent, entries that hold at its cut (the configuration filter): count in column 0, then the entries; a
-            count of 0 means any. Shape (n, 1 + n_entries).
-        crossover: TAIL (cut points of both parents about their failures), ONE_POINT (one cut point for both, anywhere) or TWO_POINT.
-        cut_spread: Spread of cut points about the failure [genes].
-        tail_share: Share of children that get a fresh random tail instead of another parent's.
-        tail_length: Most genes of a fresh tail.
-        run_length: Most repetitions of a move in fresh tails.
-        mutation: Share of children that are mutated, near the failure.
-        insert_only: Whether mutation only inserts.
-        seed, generation: Counters of the random numbers.
+        crossing: TAIL (cut points of both parents about their failures), ONE_POINT (one cut point for both, anywhere) or TWO_POINT; and the
+            spread of cut points about the failure [genes].
+        tails: Share of children that get a fresh random tail instead of another parent's, its most genes, and most repetitions of a move
+            in it.
+        mutating: Share of children that are mutated, near the failure, and whether mutation only inserts.
+        counters: Of the random numbers: seed and generation.
     """
-    longest = children.shape[1]
+    genes, parent_lengths, cuts, wheel, first_genes = parents
+    rows, child_lengths = children
+    crossover, cut_spread = crossing
+    tail_share, tail_length, run_length = tails
+    mutation, insert_only = mutating
+    seed, generation = counters
+    longest = rows.shape[1]
     n_entries = runs.shape[0]
-    for child in range(children.shape[0]):
+    for child in range(rows.shape[0]):
         a = pick(wheel, draw(seed, generation, child, 0))
         b = pick(wheel, draw(seed, generation, child, 1))
         length_a = parent_lengths[a]
         length_b = parent_lengths[b]
-        row = children[child]
+        row = rows[child]
         fresh = unit(draw(seed, generation, child, 2)) < tail_share
         if crossover == TAIL or fresh:
             c1 = near(cuts[a], cut_spread, length_a, seed, generation, child, 3)
@@ -106,10 +108,10 @@ def breed(
             c2 = c1
             end = c1 + below(draw(seed, generation, child, 4), shorter - c1 + 1)
         for i in range(c1):
-            row[i] = parents[a, i]
+            row[i] = genes[a, i]
         if fresh:
             stop = min(longest, c1 + 1 + below(draw(seed, generation, child, 7), tail_length))
-            random_genes(row, c1, stop, n_entries, runs, run_length, seed, generation, child)
+            random_genes(row, c1, stop, runs, run_length, (seed, generation, child))
             if c1 < stop and c1 == cuts[a] and first_genes[a, 0] > 0:
                 row[c1] = first_genes[a, 1 + below(draw(seed, generation, child, 8), first_genes[a, 0])]
             length = stop
@@ -117,19 +119,18 @@ def breed(
             length = c1
             i = c2
             while i < length_b and length < longest and length < end:
-                row[length] = parents[b, i]
+                row[length] = genes[b, i]
                 length += 1
                 i += 1
             if crossover == TWO_POINT:
                 i = end
                 while i < length_a and length < longest:
-                    row[length] = parents[a, i]
+                    row[length] = genes[a, i]
                     length += 1
                     i += 1
         if unit(draw(seed, generation, child, 9)) < mutation:
-            length = mutate(
-                row, length, min(cuts[a], length), cut_spread, n_entries, insert_only, seed, generation, child
-            )
+            at = near(min(cuts[a], length), cut_spread, length, seed, generation, child, 10)
+            length = mutate(row, length, at, n_entries, insert_only, (seed, generation, child))
         if length == 0:
             row[0] = below(draw(seed, generation, child, 20), n_entries)
             length = 1
@@ -137,9 +138,9 @@ def breed(
 
 
 @kernel
-def mutate(row, length, cut, spread, n_entries, insert_only, seed, generation, child):
-    """Insert, replace or remove one gene near a cut (the thesis only inserts); returns the new length."""
-    at = near(cut, spread, length, seed, generation, child, 10)
+def mutate(row, length, at, n_entries, insert_only, counters):
+    """Insert, replace or remove the gene at a place (the thesis only inserts); returns the new length."""
+    seed, generation, child = counters
     entry = below(draw(seed, generation, child, 12), n_entries)
     kind = 0 if insert_only else below(draw(seed, generation, child, 13), 3)
     if kind == 0 and length < row.shape[0]:
@@ -158,15 +159,16 @@ def mutate(row, length, cut, spread, n_entries, insert_only, seed, generation, c
 
 
 @kernel
-def vary(best, length, children, child_lengths, n_entries, runs, run_length, seed, turn):
+def vary(best, children, child_lengths, runs, run_length, seed, turn):
     """Variants of a plan that works, most of them shorter: windows and single genes left out, windows replaced, genes moved.
 
     Args:
-        best, length: The plan.
+        best: The plan, shape (n,).
         children, child_lengths: Output.
-        n_entries, runs, run_length: As in `breed`.
+        runs, run_length: As in `breed`.
         seed, turn: Counters of the random numbers.
     """
+    length = best.shape[0]
     for child in range(children.shape[0]):
         row = children[child]
         for i in range(length):
@@ -186,7 +188,7 @@ def vary(best, length, children, child_lengths, n_entries, runs, run_length, see
             width = min(width, n - at)
             fresh = below(draw(seed, turn, child, 3), width)
             n = leave_out(row, n, at, width - fresh)
-            random_genes(row, at, at + fresh, n_entries, runs, run_length, seed, turn, child)
+            random_genes(row, at, at + fresh, runs, run_length, (seed, turn, child))
         else:  # a gene moved, and another left out
             source = below(draw(seed, turn, child, 1), n)
             target = below(draw(seed, turn, child, 2), n)

@@ -19,25 +19,24 @@ def accumulate(kinds, row, totals):
 
 
 @kernel
-def rollout(p, start, genes, lengths, first, end, offsets, codes, limit, weights, stances, margins, row, out):
-    """Carry out plans `first` to `end`, each up to its goal or its first failure.
+def rollout(p, start, plans, which, table, weights, scratch, out):
+    """Carry out plans, each up to its goal or its first failure.
 
     Args:
         p: A family's parameters.
         start: Start stance, array of one record.
-        genes: Entries of the action table, shape (n, longest).
-        lengths: Genes of each plan, shape (n,).
-        first, end: Which plans.
-        offsets, codes: The table: entry g is codes[offsets[g]:offsets[g + 1]], one code or a macro.
-        limit: Most actions of a plan.
+        plans: Entries of the action table, shape (n, longest), genes of each plan, shape (n,), and most actions of a plan.
+        which: The first plan, and the one after the last.
+        table: Offsets and codes: entry g is codes[offsets[g]:offsets[g + 1]], one code or a macro.
         weights: Weights of the features.
-        stances: Scratch, three records.
-        margins: Scratch of the family's checks.
-        row: Scratch, shape (2, n_features).
+        scratch: Three stances, margins of the family's checks, and rows of features, shape (2, n_features).
         out: Record array of the plans (`problem.ROLLOUT`): genes and actions that held, reason and stance of the stop, fitness there, the
             prefix with the best fitness, features, cell.
     """
-    for plan in range(first, end):
+    genes, lengths, limit = plans
+    offsets, codes = table
+    stances, margins, row = scratch
+    for plan in range(which[0], which[1]):
         result = out[plan]
         totals = row[1]
         for i in range(totals.shape[0]):
@@ -121,14 +120,17 @@ def replay(p, start, codes, go_on, stances, margins, reasons):
 
 
 @kernel
-def expand(p, parents, first, end, codes, margins, children, parent_of, code_of):
-    """Every valid child of the stances `first` to `end`; stops before `children` is full.
+def expand(p, parents, which, scratch, children, parent_of, code_of):
+    """Every valid child of the stances from the first of `which` to before the second; stops before `children` is full.
+
+    `scratch`: codes and margins.
 
     Returns:
         Number of children, and the parent to go on from.
     """
     n = 0
-    for i in range(first, end):
+    codes, margins = scratch
+    for i in range(which[0], which[1]):
         if n + codes.shape[0] > children.shape[0]:
             return n, i
         for c in range(candidates(p, parents[i], codes)):
@@ -136,28 +138,27 @@ def expand(p, parents, first, end, codes, margins, children, parent_of, code_of)
                 parent_of[n] = i
                 code_of[n] = codes[c]
                 n += 1
-    return n, end
+    return n, which[1]
 
 
 @kernel
-def expand_scored(
-    p, parents, first, end, drafts, weights, toll, margins, row, child, codes, count, code, score, niche, met, keys
-):
-    """Every valid child of the stances `first` to `end`, each in a slot of its parent's own, so that threads never meet.
+def expand_scored(p, parents, which, drafts, scoring, scratch, count, found):
+    """Every valid child of some stances, each in a slot of its parent's own, so that threads never meet.
 
     Args:
         p: A family's parameters.
         parents: Stances.
-        first, end: Which of them.
+        which: The first of them to look at, and the one after the last.
         drafts: Whether children are drafted alone: they may not be valid.
-        weights: Weights of the features in a child's score.
-        toll: What the score loses per action that `bound` says is left.
-        margins, row, child, codes: Scratch: checks, features, one stance, candidates.
+        scoring: Weights of the features in a child's score, and what it loses per action that `bound` says is left.
+        scratch: Checks, features, one stance, candidates.
         count: Output: children of each parent.
-        code, score, niche, met: Output per parent and slot: action, score, cell, whether every goal is met.
-        keys: Output: key of each child, shape (n, slots, words).
+        found: Output per parent and slot: action, score, cell, whether every goal is met, and the key, shape (n, slots, words).
     """
-    for i in range(first, end):
+    weights, toll = scoring
+    margins, row, child, codes = scratch
+    code, score, niche, met, keys = found
+    for i in range(which[0], which[1]):
         n = 0
         for c in range(candidates(p, parents[i], codes)):
             if drafts:
@@ -179,17 +180,18 @@ def expand_scored(
 
 
 @kernel
-def possible(p, start, genes, length, offsets, codes, stances, margins, mask):
+def possible(p, start, genes, table, stances, margins, mask):
     """Which table entries hold at the end of a plan that holds: the configuration filter.
 
     Args:
-        p, start, offsets, codes, stances, margins: As in `rollout`.
-        genes, length: One plan, and how many of its genes to carry out.
+        p, start, table, stances, margins: As in `rollout`.
+        genes: One plan, shape (n,).
         mask: Output, one byte per table entry.
     """
+    offsets, codes = table
     now = 0
     stances[0] = start[0]
-    for g in range(length):
+    for g in range(genes.shape[0]):
         for at in range(offsets[genes[g]], offsets[genes[g] + 1]):
             nxt = 1 - now
             if step(p, stances[now], codes[at], stances[nxt], margins) >= 0:

@@ -168,11 +168,9 @@ class CompiledProblem:
         out = np.zeros(len(genes), ROLLOUT)
 
         def part(worker: int, first: int, end: int) -> None:
-            params, stances, margins, row = self._scratch[worker]
-            table = self.actions
-            rollout(
-                params, self.start, genes, lengths, first, end, table.offsets, table.codes, limit, weights, stances, margins, row, out
-            )  # fmt: skip
+            params, *scratch = self._scratch[worker]
+            table = self.actions.offsets, self.actions.codes
+            rollout(params, self.start, (genes, lengths, limit), (first, end), table, weights, tuple(scratch), out)
 
         self._spread(len(genes), part)
         return out
@@ -233,7 +231,7 @@ class CompiledProblem:
             room = max(4 * most, 16 * (len(stances) - first))
             children = np.zeros(room, self.start.dtype)
             parent, code = np.zeros(room, np.int32), np.zeros(room, np.int32)
-            n, first = expand(params, stances, first, len(stances), codes, margins, children, parent, code)
+            n, first = expand(params, stances, (first, len(stances)), (codes, margins), children, parent, code)
             parts.append(Children(parent[:n], code[:n], children[:n]))
         return Children(
             np.concatenate([part.parent for part in parts]),
@@ -272,10 +270,10 @@ class CompiledProblem:
         def part(worker: int, first: int, end: int) -> None:
             params, child, margins, row = self._scratch[worker]
             codes = np.zeros(self.branching, np.int32)
-            expand_scored(
-                params, stances, first, end, self.drafts(weights), weights, toll, margins, row[0], child, codes,
-                out.count, out.code, out.score, out.cell, out.done, out.keys,
-            )  # fmt: skip
+            scratch = margins, row[0], child, codes
+            found = out.code, out.score, out.cell, out.done, out.keys
+            drafts = self.drafts(weights)
+            expand_scored(params, stances, (first, end), drafts, (weights, toll), scratch, out.count, found)
 
         self._spread(len(stances), part)
 
@@ -284,9 +282,7 @@ class CompiledProblem:
         genes = indices(genes, len(self.actions), "genes", self.limits.label)
         params, stances, margins, _ = self._scratch[0]
         mask = np.zeros(len(self.actions), np.uint8)
-        possible(
-            params, self.start, genes, len(genes), self.actions.offsets, self.actions.codes, stances, margins, mask
-        )
+        possible(params, self.start, genes, (self.actions.offsets, self.actions.codes), stances, margins, mask)
         return mask
 
     def rebind(self, actions: ActionTable, start: Records | None = None) -> Self:

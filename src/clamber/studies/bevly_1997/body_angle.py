@@ -150,9 +150,8 @@ def _held(replayed: Replayed, two: list[int], pose: Floats, places: Floats, rng:
 
     def off(rule: int, before: Floats, angles: Floats, believed: Floats) -> Floats:
         out, spare = before.copy(), np.zeros((2, 2))
-        estimate_body(
-            legs, angles, spare.copy(), np.ones(2), believed, 0.0, 0.0, rule, spare, spare.copy(), out, np.zeros(3)
-        )
+        joints, held = (angles, np.zeros((2, 2))), (np.ones(2), believed)
+        estimate_body(legs, joints, held, (0.0, 0.0, rule), spare, spare.copy(), out, np.zeros(3))
         return out - pose
 
     exact, kept = (float(np.abs(off(SECOND_TIP, before, q, places)).max()) for before in (flat, pose))

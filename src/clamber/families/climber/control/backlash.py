@@ -13,19 +13,21 @@ RESTS = 0.1
 
 
 @kernel
-def pull_torques(leg, q, qd, pose, twist, force, damping, torques, loads):
+def pull_torques(leg, joints, body, force, damping, torques, loads):
     """Torques with which a free limb pulls at what its tip meets: J^T F, its own weight and friction fed forward.
 
     Args:
         leg: A record of `PLANAR_LIMB`.
-        q, qd: Its joint angles and speeds, shape (2,).
-        pose, twist: Of the body, shape (3,).
+        joints: Their angles and speeds, shape (2,) each.
+        body: Its pose and twist, shape (3,) each.
         force: Of the tip on what it meets, world frame, shape (2,) [N].
         damping: Of the tip's motion in the world [N s/m].
         torques: Filled, shape (2,) [N m].
         loads: Filled with what surely loads the joints' outputs while the tip stands still: weight and force less what friction of a
             motor that stands may take of it, shape (2,) [N m].
     """
+    q, qd = joints
+    pose, twist = body
     first = pose[2] + leg.port_angle + q[0]
     second = first + q[1] + leg.beta
     j00 = -leg.l1 * math.sin(first) - leg.l2 * math.sin(second)
@@ -79,7 +81,7 @@ def weight_moment(legs, q, angle):
 
 
 @kernel
-def follow_play(legs, q, qd, held, forces, angle, pressed, loads, rate, play, sure):
+def follow_play(legs, joints, angle, holding, pressing, rate, play, sure):
     """Let each joint's believed side of its play follow what loads it.
 
     A limb that holds is told no friction, so what loads a joint of it is its torque less the friction of a motor that turns, and anything
@@ -87,16 +89,18 @@ def follow_play(legs, q, qd, held, forces, angle, pressed, loads, rate, play, su
 
     Args:
         legs: Records of `PLANAR_LIMB`, shape (n,).
-        q, qd: Joint angles and speeds, shape (n, 2).
-        held: 1 for limbs that hold, loaded by `forces`, shape (n,).
-        forces: Of the tips on their holds, port frame, shape (n, 2) [N].
+        joints: Their angles and speeds, shape (n, 2) each.
         angle: Of the body [rad].
-        pressed: 1 for limbs that press against something with `loads`; others bear their own weight, shape (n,).
-        loads: Torques at the joints' outputs, shape (n, 2) [N m].
+        holding: 1 for limbs that hold, shape (n,), and the forces of their tips on the holds, port frame, shape (n, 2) [N].
+        pressing: 1 for limbs that press against something, shape (n,), and the torques at their joints' outputs, shape (n, 2) [N m];
+            others bear their own weight.
         rate: Part of the rest of the way that it goes at a tick, and half the whole play [rad], shape (2,) or more.
         play: Changed, shape (n, 2) [rad].
         sure: How sure each side is, 0 to 1, changed, shape (n, 2) [-].
     """
+    q, qd = joints
+    held, forces = holding
+    pressed, loads = pressing
     for i in range(legs.size):
         leg = legs[i]
         if held[i]:

@@ -84,31 +84,29 @@ def distribute_wrench(held, arms, wrench, forces):
 
 
 @kernel
-def command_contact_forces(legs, q, held, pose, arms, wanted, fed, mapping, limit, least, drags, cuts, pulls, forces):
+def command_contact_forces(stance, held, asked, least, drags, cuts, pulls, forces):
     """What each holding tip is to do, in its port frame: an acceleration relative to the body, and a force on its hold.
 
     Args:
-        legs: Records of `PLANAR_LIMB`, shape (n,).
-        q: Joint angles, shape (n, 2) [rad].
+        stance: As `pair_forces` takes it.
         held: 1 for limbs that hold, shape (n,).
-        pose: Body pose, shape (3,).
-        arms: Holds less body, world frame, shape (n, 2) [m].
-        wanted: Acceleration of the body that is asked for, in the units of its gains, shape (3,); with WRENCH a wrench [N], [N m].
-        fed: Wrench that is fed forward, such as the weight, shape (3,) [N], [N m].
-        mapping: THESIS, KINEMATIC or WRENCH.
-        limit: LIMIT_NONE, LIMIT_THESIS, LIMIT_COUNTED, LIMIT_SHARED or LIMIT_FEASIBLE.
+        asked: Acceleration of the body that is asked for, in the units of its gains, shape (3,), with WRENCH a wrench [N], [N m]; the
+            wrench that is fed forward, such as the weight, shape (3,) [N], [N m]; THESIS, KINEMATIC or WRENCH; and LIMIT_NONE,
+            LIMIT_THESIS, LIMIT_COUNTED, LIMIT_SHARED or LIMIT_FEASIBLE.
         least: alpha, the least acceleration along the grab direction, shape (n,).
         drags: Accelerations of the tips relative to the body that are asked for besides, world frame, shape (n, 2).
         cuts: Work space of `pair_forces`.
         pulls: Filled with accelerations, port frame, shape (n, 2).
         forces: Filled with forces of the tips on their holds, port frame, shape (n, 2) [N].
     """
+    legs, q, pose, arms = stance
+    wanted, fed, mapping, limit = asked
     distribute_wrench(held, arms, fed, forces)
     distribute_wrench(held, arms, wanted, pulls)
     count, a, b = _pair(held)
     feasible = limit == LIMIT_FEASIBLE and count == 2
     if feasible:
-        pair_forces(legs, q, a, b, pose, arms, fed, _asked(mapping, wanted), cuts, forces)
+        pair_forces(stance, (a, b), ((fed[0], fed[1], fed[2]), _asked(mapping, wanted)), cuts, forces)
     for i in range(legs.size):
         if not held[i]:
             continue
@@ -136,7 +134,7 @@ def command_contact_forces(legs, q, held, pose, arms, wanted, fed, mapping, limi
             forces[i, 1] = -forces[i, 1]
             _turn(forces[i], turn)
     if limit == LIMIT_SHARED and count == 2:
-        _squeeze(legs, q, a, b, pose, arms, least, pulls, forces)
+        _squeeze(stance, (a, b), least, pulls, forces)
     for i in range(legs.size):
         if held[i] and limit not in (LIMIT_NONE, LIMIT_FEASIBLE) and legs[i].hooked:
             limit_pull(legs[i], q[i], limit, least[i], pulls[i], forces[i])
@@ -186,11 +184,13 @@ def _pair(held):
 
 
 @kernel
-def _squeeze(legs, q, a, b, pose, arms, least, pulls, forces):
+def _squeeze(stance, pair, least, pulls, forces):
     """Let two holding limbs pull against each other along the line of their holds, as little as keeps both hooks on.
 
     Such a force moves the body nowhere, so what the body is asked to do stays as it is; clipping one limb's pull does not.
     """
+    legs, q, pose, arms = stance
+    a, b = pair
     ux = arms[b, 0] - arms[a, 0]
     uy = arms[b, 1] - arms[a, 1]
     length = math.hypot(ux, uy)

@@ -51,7 +51,7 @@ def part_passed(u):
 
 
 @kernel
-def estimate_body(legs, q, qd, weights, holds, angle, angle_speed, angle_from, tips, speeds, pose, twist):
+def estimate_body(legs, joints, held, told, tips, speeds, pose, twist):
     """Body pose and speed from the holding limbs.
 
     The angle is that of the seventh encoder, or that of the line between the tips of the first two holding limbs against the line of their
@@ -62,17 +62,18 @@ def estimate_body(legs, q, qd, weights, holds, angle, angle_speed, angle_from, t
 
     Args:
         legs: Records of `PLANAR_LIMB`, shape (n,).
-        q, qd: Joint angles and speeds, shape (n, 2).
-        weights: Of the limbs that hold, 0 for others, shape (n,).
-        holds: Believed places of their holds, shape (n, 2) [m].
-        angle, angle_speed: Of the body by its own encoder [rad], [rad/s].
-        angle_from: ENCODER uses those; LINE or SECOND_TIP the tips.
+        joints: Their angles and speeds, shape (n, 2) each.
+        held: Weights of the limbs that hold, 0 for others, shape (n,), and the believed places of their holds, shape (n, 2) [m].
+        told: Angle and speed of the body by its own encoder [rad], [rad/s]; and ENCODER, which uses those, LINE or SECOND_TIP, the tips.
         tips, speeds: Filled with the tips in the body frame and their speeds, shape (n, 2).
         pose, twist: Filled, shape (3,) [m], [rad].
 
     Returns:
         Number of holding limbs. With none, or one and no encoder, the pose cannot be told and is left as it was.
     """
+    q, qd = joints
+    weights, holds = held
+    angle, angle_speed, angle_from = told
     place_tips(legs, q, tips)
     move_tips(legs, q, qd, speeds)
     count = 0

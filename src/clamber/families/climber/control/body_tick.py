@@ -143,14 +143,10 @@ def see_tick(handle, angle, angle_speed, angle_from):
     for i in range(work.legs.size):
         for k in range(2):
             work.lagged[i, k] = work.q[i, k] - work.play[i, k]
-    estimate_body(
-        work.legs, work.q, work.qd, work.weights, work.holds, angle, angle_speed, angle_from,
-        work.tips, work.tip_speeds, work.pose, work.twist,
-    )  # fmt: skip
-    estimate_body(
-        work.legs, work.lagged, work.qd, work.weights, work.holds, angle, angle_speed, angle_from,
-        work.settled_tips, work.spare_speeds, work.settled, work.spare_twist,
-    )  # fmt: skip
+    joints, lagged = (work.q, work.qd), (work.lagged, work.qd)
+    held, told = (work.weights, work.holds), (angle, angle_speed, angle_from)
+    estimate_body(work.legs, joints, held, told, work.tips, work.tip_speeds, work.pose, work.twist)
+    estimate_body(work.legs, lagged, held, told, work.settled_tips, work.spare_speeds, work.settled, work.spare_twist)
     for i in range(work.legs.size):
         place_in_world(work, i)
     return ended
@@ -180,8 +176,9 @@ def _feed(jobs, tips, settled, gains, moment, fed):
 
 
 @inlined
-def _aim_limb(job, leg, tip, tip_speed, settled_tip, pose, twist, settled, pull, force, aim):
+def _aim_limb(work, i):
     """Fill a limb's aim. To hold: a law with a gain of one, aimed one pull away, turns exactly that pull into torques."""
+    job, leg, tip, aim, pose, twist = work.jobs[i], work.legs[i], work.tips[i], work.aim[0], work.pose, work.twist
     c = math.cos(leg.port_angle)
     s = math.sin(leg.port_angle)
     x = tip[0] - leg.port_x
@@ -189,24 +186,23 @@ def _aim_limb(job, leg, tip, tip_speed, settled_tip, pose, twist, settled, pull,
     aim.place[0] = c * x + s * y
     aim.place[1] = -s * x + c * y
     if job.mode == STANCE:
-        aim.place[0] += pull[0]
-        aim.place[1] += pull[1]
-        aim.twist[0] = 0.0
-        aim.twist[1] = 0.0
-        aim.wrench[0] = force[0]
-        aim.wrench[1] = force[1]
+        for k in range(2):
+            aim.place[k] += work.pulls[i, k]
+            aim.twist[k] = 0.0
+            aim.wrench[k] = work.forces[i, k]
         return
-    x, y = in_world(settled, settled_tip[0], settled_tip[1])
+    x, y = in_world(work.settled, work.settled_tips[i, 0], work.settled_tips[i, 1])
     x, y = _into_port(leg, pose, job.place[0] - x, job.place[1] - y)
     aim.place[0] += x
     aim.place[1] += y
     # the tip's speed by the body's own motion, which its joints need not follow
     c = math.cos(pose[2])
     s = math.sin(pose[2])
-    ax = tip_speed[0] - twist[2] * tip[1]
-    ay = tip_speed[1] + twist[2] * tip[0]
-    x = twist[0] + c * ax - s * ay - (c * tip_speed[0] - s * tip_speed[1])
-    y = twist[1] + s * ax + c * ay - (s * tip_speed[0] + c * tip_speed[1])
+    vx, vy = work.tip_speeds[i, 0], work.tip_speeds[i, 1]
+    ax = vx - twist[2] * tip[1]
+    ay = vy + twist[2] * tip[0]
+    x = twist[0] + c * ax - s * ay - (c * vx - s * vy)
+    y = twist[1] + s * ax + c * ay - (s * vx + c * vy)
     x, y = _into_port(leg, pose, job.speed[0] - x, job.speed[1] - y)
     aim.twist[0] = x
     aim.twist[1] = y
@@ -254,11 +250,9 @@ def _wish(work):
 @inlined
 def _command_contact_forces(work, carriers, pulls, forces):
     """What the tips of these carriers do for it."""
-    gains = work.gains[0]
-    command_contact_forces(
-        work.legs, work.q, carriers, work.pose, work.arms, work.wanted, work.fed, gains.mapping, gains.limit, work.least, work.drags,
-        work.cuts, pulls, forces,
-    )  # fmt: skip
+    gains, stance = work.gains[0], (work.legs, work.q, work.pose, work.arms)
+    asked = work.wanted, work.fed, gains.mapping, gains.limit
+    command_contact_forces(stance, carriers, asked, work.least, work.drags, work.cuts, pulls, forces)
 
 
 @inlined
@@ -287,10 +281,7 @@ def _by_law(work, i, torques):
     states[0, 0, 1] = q[i, 1]
     states[0, 1, 0] = qd[i, 0]
     states[0, 1, 1] = qd[i, 1]
-    _aim_limb(
-        job, leg, work.tips[i], work.tip_speeds[i], work.settled_tips[i], pose,
-        work.twist, work.settled, work.pulls[i], work.forces[i], work.aim[0],
-    )  # fmt: skip
+    _aim_limb(work, i)
     law = 0 if job.mode == STANCE else 1
     bad = drive_packed(work.drives[law, i], work.aim, states, work.felt, work.felt) >= 0
     given = carray(pointer(work.drives[law, i, BUFFERS_TORQUES]), 2, np.float64)
@@ -315,7 +306,7 @@ def _by_pull(work, i, torques):
     else:
         force = (job.force[0], job.force[1])
         damping = job.damping
-    pull_torques(leg, q[i], work.qd[i], pose, work.twist, force, damping, torques, loads_now)
+    pull_torques(leg, (q[i], work.qd[i]), (pose, work.twist), force, damping, torques, loads_now)
     _even_out(work.loads[i], loads_now, work.lag[2])
     most = gains.firm if job.pressed else gains.gentle
     for k in range(2):
@@ -371,7 +362,6 @@ def command_tick(handle):
         side = work.jobs[i].side
         if side != 0:
             work.torques[i, 1] += side * STOP * max(0.0, 1.0 - side * work.q[i, 1] / BENT)
-    follow_play(
-        work.legs, work.q, work.qd, work.held, work.forces, work.pose[2], work.pressed, work.loads, work.lag, work.play, work.sure,
-    )  # fmt: skip
+    holding, pressing = (work.held, work.forces), (work.pressed, work.loads)
+    follow_play(work.legs, (work.q, work.qd), work.pose[2], holding, pressing, work.lag, work.play, work.sure)
     return bad

@@ -33,47 +33,50 @@ FAR = 1e3
 """Internal forces are looked for within this [N]."""
 HALVINGS = 7
 """In the search for the part of the feedback that hooks and motors bear."""
+NOTHING = (0.0, 0.0, 0.0)
+"""Asked for besides a steady wrench."""
 FLAT = 1e-9
 """A cut with less slope than this says nothing about lambda."""
 
 
 @kernel
-def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
+def pair_forces(stance, pair, wrenches, cuts, forces):
     """Forces of two holds on their limbs, added up to a wrench, within what hooks and motors can take if there is such a split.
 
     First comes the steady wrench, as is wished of hooks and motors. What is asked for besides, to bring the body back to its aim, may go up
     to their bounds; of more than these allow it gets a part.
 
     Args:
-        legs: Records of `PLANAR_LIMB`, shape (n,).
-        q: Joint angles, shape (n, 2) [rad].
-        a, b: The limbs.
-        pose: Body pose, shape (3,).
-        arms: Holds less body, world frame, shape (n, 2) [m].
-        wrench: On the body: Fx, Fy [N], M about its origin [N m].
-        more: What is asked for besides, shape (3,).
+        stance: Records of `PLANAR_LIMB`, shape (n,), joint angles, shape (n, 2) [rad], body pose, shape (3,), and holds less body, world
+            frame, shape (n, 2) [m].
+        pair: Both limbs.
+        wrenches: On the body, steady and what is asked for besides: Fx, Fy [N], M about its origin [N m] each.
         cuts: Work space, shape (MOST_CUTS, 2).
         forces: Rows a and b are filled, world frame, shape (n, 2) [N].
 
     Returns:
         How well the worst of hooks and motors is off under the steady wrench [N]: negative if none of the splits meets all wishes; and the
-        part of `more` that is brought.
+        part that is brought of what is asked for besides.
     """
+    legs, q, pose, arms = stance
+    a, b = pair
+    more = wrenches[1]
     dx = arms[b, 0] - arms[a, 0]
     dy = arms[b, 1] - arms[a, 1]
     length = max(math.hypot(dx, dy), 1e-6)
     line = (dx / length, dy / length, length)
+    loads = (a, b, arms, line, wrenches)
     lie = (_as_it_lies(legs[a], q[a], pose[2]), _as_it_lies(legs[b], q[b], pose[2]))
     wishes = (math.sin(WISHED_CONE), math.cos(WISHED_CONE), WISHED_PULL, WISHED_TORQUE)
     bounds = (math.sin(WIDEST_CONE), math.cos(WIDEST_CONE), LEAST_PULL, MOST_TORQUE)
-    count, easiest = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 0.0, wishes, cuts, forces)
+    count, easiest = _cut_pair(legs, lie, loads, 0.0, wishes, cuts, forces)
     lam, margin = max_min_solution(cuts, count, easiest)
     part = 0.0
     if more[0] != 0.0 or more[1] != 0.0 or more[2] != 0.0:
-        count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 0.0, bounds, cuts, forces)
+        count, _ = _cut_pair(legs, lie, loads, 0.0, bounds, cuts, forces)
         _, floor = max_min_solution(cuts, count, lam)
         floor = min(floor, 0.0)
-        count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, 1.0, bounds, cuts, forces)
+        count, _ = _cut_pair(legs, lie, loads, 1.0, bounds, cuts, forces)
         whole, least = max_min_solution(cuts, count, lam)
         part = 1.0
         if least < floor:
@@ -82,14 +85,14 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
             whole = lam
             step = 0.5
             for _ in range(HALVINGS):
-                count, _ = _cut_pair(legs, lie, a, b, arms, line, wrench, more, part + step, bounds, cuts, forces)
+                count, _ = _cut_pair(legs, lie, loads, part + step, bounds, cuts, forces)
                 found, least = max_min_solution(cuts, count, lam)
                 if least >= floor:
                     part += step
                     whole = found
                 step *= 0.5
         lam = whole
-    _split(a, b, arms, line, wrench, more, part, forces)
+    _split(loads, part, forces)
     forces[a, 0] += lam * line[0]
     forces[a, 1] += lam * line[1]
     forces[b, 0] -= lam * line[0]
@@ -98,8 +101,10 @@ def pair_forces(legs, q, a, b, pose, arms, wrench, more, cuts, forces):
 
 
 @inlined
-def _split(a, b, arms, line, wrench, more, part, forces):
-    """The split of wrench + part more with the least forces."""
+def _split(loads, part, forces):
+    """The split, with the least forces, of the steady wrench and a part of what is asked for besides."""
+    a, b, arms, line, wrenches = loads
+    wrench, more = wrenches
     ux, uy, length = line
     x = wrench[0] + part * more[0]
     y = wrench[1] + part * more[1]
@@ -112,13 +117,14 @@ def _split(a, b, arms, line, wrench, more, part, forces):
 
 
 @kernel
-def _cut_pair(legs, lie, a, b, arms, line, wrench, more, part, wishes, cuts, forces):
+def _cut_pair(legs, lie, loads, part, wishes, cuts, forces):
     """Fill the cuts of both limbs, by `_as_it_lies` of each; how many, and the lambda with the least effort."""
-    _split(a, b, arms, line, wrench, more, part, forces)
-    size = max(math.hypot(wrench[0], wrench[1]), 1.0)
-    ux, uy, _ = line
-    count, slope, square = _add_cuts(legs[a], lie[0], forces[a], ux, uy, size, wishes, cuts, 0)
-    count, slope_b, square_b = _add_cuts(legs[b], lie[1], forces[b], -ux, -uy, size, wishes, cuts, count)
+    a, b, _, line, wrenches = loads
+    _split(loads, part, forces)
+    size = max(math.hypot(wrenches[0][0], wrenches[0][1]), 1.0)
+    along, against = (line[0], line[1]), (-line[0], -line[1])
+    count, slope, square = _add_cuts(legs[a], lie[0], forces[a], along, size, wishes, cuts, 0)
+    count, slope_b, square_b = _add_cuts(legs[b], lie[1], forces[b], against, size, wishes, cuts, count)
     square += square_b
     return count, -(slope + slope_b) / square if square > FLAT else 0.0
 
@@ -135,12 +141,13 @@ def _as_it_lies(leg, q, angle):
 
 
 @inlined
-def _add_cuts(leg, lies, force, ux, uy, size, wishes, cuts, count):
-    """Cuts of a limb, as it lies, whose hold gives `force` + lambda (ux, uy); of its effort in lambda half the slope at 0 and the square.
+def _add_cuts(leg, lies, force, along, size, wishes, cuts, count):
+    """Cuts of a limb, as it lies, whose hold gives `force` + lambda `along`; of its effort in lambda half the slope at 0 and the square.
 
     `lies`: see `_as_it_lies`.
     `wishes`: sine and cosine of the cone's half angle, pull along the grab direction [N], part of the motors' torque.
     """
+    ux, uy = along
     cone_sin, cone_cos, least_pull, torque_part = wishes
     j00, j01, j10, j11, gx, gy = lies
     # of the limb on its hold, along the grab direction and across it

@@ -70,24 +70,24 @@ def discs_in_body(discs, pose, within, out):
 
 
 @kernel
-def clearance(leg, t1, t2, discs, walls, link_radius, hook):
+def clearance(leg, t1, t2, obstacles):
     """Smallest distance of a limb's links and tip from all obstacles, less their radii [m].
 
     Args:
-        leg: A record of `leg.PLANAR_LIMB`.
+        leg: A record of `PLANAR_LIMB`.
         t1, t2: Its joint angles [rad].
-        discs: Obstacles x, y, radius in the body frame, shape (n, 3) [m].
-        walls: Segments x, y, x, y, radius in the body frame, shape (m, 5) [m]; the first link may touch them (it starts at the body).
-        link_radius, hook: Of the limb [m].
+        obstacles: Discs x, y, radius in the body frame, shape (n, 3) [m]; walls, segments x, y, x, y, radius there, shape (m, 5) [m],
+            which the first link may touch (it starts at the body); the radius of the limb's links [m]; and of its hook the radius and
+            how far that disc is before the tip, shape (2,) [m].
     """
-    return _clearance_up_to(leg, t1, t2, discs, walls, link_radius, hook, FAR)
+    return _clearance_up_to(leg, t1, t2, obstacles, FAR)
 
 
 @kernel
-def clearances(leg, angles, discs, walls, link_radius, hook, rooms):
+def clearances(leg, angles, obstacles, rooms):
     """`clearance` at joint angles, shape (n, 2) [rad], into `rooms`, shape (n,)."""
     for k in range(rooms.size):
-        rooms[k] = clearance(leg, angles[k, 0], angles[k, 1], discs, walls, link_radius, hook)
+        rooms[k] = clearance(leg, angles[k, 0], angles[k, 1], obstacles)
 
 
 @inlined
@@ -100,8 +100,9 @@ def _may_be_within(ax, ay, bx, by, half, px, py, distance):
 
 
 @kernel
-def _clearance_up_to(leg, t1, t2, discs, walls, link_radius, hook, most):
+def _clearance_up_to(leg, t1, t2, obstacles, most):
     """`clearance`, but `most` where there is more [m]: what is farther away than what has been seen is not looked at."""
+    discs, walls, link_radius, hook = obstacles
     first = leg.port_angle + t1
     second = first + t2
     ex = leg.port_x + leg.l1 * math.cos(first)
@@ -137,29 +138,28 @@ def _clearance_up_to(leg, t1, t2, discs, walls, link_radius, hook, most):
 
 
 @kernel
-def find_way(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, path):
+def find_way(leg, grid, start, goal, obstacles, least, path):
     """Cheapest way over the grid of joint angles, length made dearer near obstacles.
 
     Args:
-        leg: A record of `leg.PLANAR_LIMB`.
-        lower, upper: Joint limits, shape (2,) [rad].
-        cells: Grid points along each joint.
+        leg: A record of `PLANAR_LIMB`.
+        grid: Lower and upper limits of its joints, shape (2,) each [rad], and the number of grid points along each joint.
         start, goal: Joint angles, shape (2,) [rad].
-        discs, walls, link_radius, hook: See `clearance`.
+        obstacles: See `clearance`.
         least: Clearance that a way must keep, but next to a start or goal that has less: where it can be, it rises from there on [m].
         path: Filled with joint angles from start to goal, shape (most, 2).
 
     Returns:
         Number of points, 0 where there is no way.
     """
-    args = (leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least)
-    count = _search(*args, True, path)
-    return count if count else _search(*args, False, path)
+    count = _search(leg, grid, start, goal, obstacles, least, True, path)
+    return count if count else _search(leg, grid, start, goal, obstacles, least, False, path)
 
 
 @kernel
-def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, hook, least, rises, path):
+def _search(leg, grid, start, goal, obstacles, least, rises, path):
     """`find_way`, with a clearance that rises away from a tight end, or only is not less than there."""
+    lower, upper, cells = grid
     size = cells * cells
     room = np.full(size, math.nan)  # looked at where the search comes by: that is what takes the time
     pitch1 = (upper[0] - lower[0]) / (cells - 1)
@@ -167,8 +167,8 @@ def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, ho
     origin = _nearest(start, lower, pitch1, pitch2, cells)
     target = _nearest(goal, lower, pitch1, pitch2, cells)
     # where an end itself is tight, the way next to it may be as tight
-    at_start = min(least, clearance(leg, start[0], start[1], discs, walls, link_radius, hook) - TIGHTER)
-    at_goal = min(least, clearance(leg, goal[0], goal[1], discs, walls, link_radius, hook) - TIGHTER)
+    at_start = min(least, clearance(leg, start[0], start[1], obstacles) - TIGHTER)
+    at_goal = min(least, clearance(leg, goal[0], goal[1], obstacles) - TIGHTER)
     cost = np.full(size, FAR)
     came = np.full(size, -1, np.int64)
     lengths = np.array(((0.0, pitch2), (pitch1, math.hypot(pitch1, pitch2))))
@@ -202,7 +202,7 @@ def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, ho
                 a = lower[0] + (i + di) * pitch1
                 b = lower[1] + (j + dj) * pitch2
                 if math.isnan(room[there]):
-                    room[there] = _clearance_up_to(leg, a, b, discs, walls, link_radius, hook, enough)
+                    room[there] = _clearance_up_to(leg, a, b, obstacles, enough)
                 tight = room[there] < _floor(a, b, start, goal, at_start, at_goal, least, rises)
                 if tight and there != target and there != origin:
                     continue
@@ -229,7 +229,7 @@ def _search(leg, lower, upper, cells, start, goal, discs, walls, link_radius, ho
         node = came[node]
     path[0] = start
     path[length + 1] = goal
-    return _straighten(leg, path, length + 2, at_start, at_goal, least, rises, discs, walls, link_radius, hook)
+    return _straighten(leg, path, length + 2, (at_start, at_goal), least, rises, obstacles)
 
 
 @inlined
@@ -279,12 +279,13 @@ def _rise(costs, nodes, at):
 
 
 @kernel
-def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls, link_radius, hook):
+def _straighten(leg, path, length, at_ends, least, rises, obstacles):
     """Leave out points between which the straight way keeps the preferred clearance, or that of the points themselves."""
+    at_start, at_goal = at_ends
     enough = max(PREFERRED, least)
     room = np.empty(length)
     for k in range(length):
-        room[k] = _clearance_up_to(leg, path[k, 0], path[k, 1], discs, walls, link_radius, hook, PREFERRED)
+        room[k] = _clearance_up_to(leg, path[k, 0], path[k, 1], obstacles, PREFERRED)
     kept = 1
     at = 0
     while at < length - 1:
@@ -298,7 +299,7 @@ def _straighten(leg, path, length, at_start, at_goal, least, rises, discs, walls
                 a = path[at, 0] + part * (path[to, 0] - path[at, 0])
                 b = path[at, 1] + part * (path[to, 1] - path[at, 1])
                 floor = _floor(a, b, path[0], path[length - 1], at_start, at_goal, least, rises)
-                if _clearance_up_to(leg, a, b, discs, walls, link_radius, hook, enough) < max(tight, floor) - 1e-6:
+                if _clearance_up_to(leg, a, b, obstacles, enough) < max(tight, floor) - 1e-6:
                     free = False
                     break
             if free:

@@ -4,7 +4,7 @@ import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import product
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 
@@ -39,6 +39,10 @@ BENT: Final = math.radians(20.0)
 """An elbow nearer to straight than this brings its tip no farther, and nowhere on a straight way [rad]."""
 NEARBY: Final = 0.6
 """Holds farther from the body are in no limb's way [m]."""
+
+
+Obstacles: TypeAlias = tuple[Floats, Floats, float, Floats]
+"""As `clearance` takes them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -108,8 +112,26 @@ class Approaches:
 
     def __init__(self, robot: LimbedRobot, legs: Records) -> None:
         self.robot, self.legs = robot, legs
-        self.wall = wall_of(robot)
-        self.path = np.zeros((MOST_POINTS, 2))
+        self._wall, self._path = wall_of(robot), np.zeros((MOST_POINTS, 2))
+        joints = [(limb.shoulder, limb.elbow) for limb in robot.limbs]
+        self.limits = np.array([[[joint.lower for joint in two], [joint.upper for joint in two]] for two in joints])
+        """Of each limb's joints, shape (limbs, 2, 2): lower, then upper [rad]."""
+
+    def obstacles(self, discs: Floats) -> Obstacles:
+        """What limbs keep off: discs in the body frame and the body itself."""
+        return discs, self._wall, self.robot.link_radius, HOOK
+
+    def room(self, i: int, angles: Floats, obstacles: Obstacles) -> float:
+        """Clearance of limb `i`, joints at angles, shape (2,) [rad], from obstacles [m]."""
+        return float(clearance(self.legs[i], angles[0], angles[1], obstacles))
+
+    def way(
+        self, i: int, start: Floats, goal: Floats, obstacles: Obstacles, least: float = LEAST_CLEARANCE
+    ) -> Floats | None:
+        """Joint angles from start to goal, shape (n, 2) [rad], that keep a clearance, but near ends that have less; None if none do."""
+        grid = (*self.limits[i], CELLS)
+        count = find_way(self.legs[i], grid, start, goal, obstacles, least, self._path)
+        return self._path[:count].copy() if count else None
 
     def find(
         self,
@@ -173,9 +195,9 @@ class Approaches:
             moved = pose + np.array((*shift, 0.0))
             if shift.any() and not stands(moved):
                 continue
-            near = discs_near(discs, moved)
+            near = self.obstacles(discs_near(discs, moved))
             if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
-                self._room(i, one.angles, near) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
+                self.room(i, one.angles, near) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
             ):
                 return shift
         return None
@@ -194,9 +216,6 @@ class Approaches:
         limb, move = self.robot.limbs[i], np.array((*shift, 0.0))
         return all(_bent(limb, pose + part * move, tip + part * back, side) for part in np.linspace(0.0, 1.0, 9))
 
-    def _room(self, i: int, angles: Floats, discs: Floats) -> float:
-        return float(clearance(self.legs[i], angles[0], angles[1], discs, self.wall, self.robot.link_radius, HOOK))
-
     def _stand_off(
         self,
         i: int,
@@ -209,9 +228,7 @@ class Approaches:
         slants: tuple[int, ...],
     ) -> tuple[Floats, Floats, float] | None:
         limb = self.robot.limbs[i]
-        discs = discs_near(discs, pose)
-        lower = np.array((limb.shoulder.lower, limb.elbow.lower))
-        upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+        obstacles = self.obstacles(discs_near(discs, pose))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
         for final in rank(postures(limb, pose, hold), wish.elbow)[:1]:
             if not _bent(limb, pose, hold - wish.near * final.grab, math.copysign(1.0, final.angles[1]), bent):
@@ -224,14 +241,11 @@ class Approaches:
                     for posture in postures(limb, pose, place):
                         if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
                             continue
-                        if self._room(i, posture.angles, discs) < 0.0:
+                        if self.room(i, posture.angles, obstacles) < 0.0:
                             continue
-                        count = find_way(
-                            self.legs[i], lower, upper, CELLS, angles, posture.angles, discs, self.wall,
-                            self.robot.link_radius, HOOK, LEAST_CLEARANCE, self.path,
-                        )  # fmt: skip
-                        if count:
-                            return final.grab, self.path[:count].copy(), part * wish.stand_off
+                        way = self.way(i, angles, posture.angles, obstacles)
+                        if way is not None:
+                            return final.grab, way, part * wish.stand_off
         return None
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from ....types import Floats, Ints, Records
 from ..control.backlash import weight_moment
-from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.hook_forces import MOST_CUTS, NOTHING, pair_forces
 from ..robot.robot import LimbedRobot
 from .postures import postures
 
@@ -35,17 +35,7 @@ def load_capacity(robot: LimbedRobot, legs: Records, places: Floats, stance: Rec
         if not found:
             return -math.inf
         q[i], arms[i] = found[0].angles, place - pose[:2]
-    wrench = np.array((0.0, robot.weight, weight_moment(legs, q, pose[2])))
-    margin, _ = pair_forces(
-        legs,
-        q,
-        carriers[0],
-        carriers[1],
-        pose,
-        arms,
-        wrench,
-        np.zeros(3),
-        np.zeros((MOST_CUTS, 2)),
-        np.zeros_like(arms),
-    )
+    wrenches = (0.0, robot.weight, weight_moment(legs, q, pose[2])), NOTHING
+    cuts, forces = np.zeros((MOST_CUTS, 2)), np.zeros_like(arms)
+    margin, _ = pair_forces((legs, q, pose, arms), (carriers[0], carriers[1]), wrenches, cuts, forces)
     return float(margin)

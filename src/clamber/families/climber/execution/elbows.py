@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Ints, Records
-from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.hook_forces import MOST_CUTS, NOTHING, pair_forces
 from ..control.limb_chain import legs_of
 from ..control.swing_path import clearance
 from ..robot.robot import HOOK_AHEAD, HOOK_WAY, HOOK_WIDTH, LimbedRobot
@@ -74,8 +74,8 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> tuple[I
 def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:
     """What each choice of branches counts after each action, shape (n, states)."""
     legs, limbs = legs_of(robot), len(robot.limbs)
-    cuts, forces, nothing = np.zeros((MOST_CUTS, 2)), np.zeros((limbs, 2)), np.zeros(3)
-    wrench = np.array((0.0, robot.weight, 0.0))
+    cuts, forces = np.zeros((MOST_CUTS, 2)), np.zeros((limbs, 2))
+    wrenches = (0.0, robot.weight, 0.0), NOTHING
     places = board.positions()
     costs = np.zeros((len(stances), len(states)))
     wall = wall_of(robot)
@@ -100,7 +100,7 @@ def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> 
                 costs[step, k] += DRAWBACKS[robot.limbs[i].end.kind](posture, off_plan)
                 costs[step, k] += near[i][int(state[i])]
             if len(carriers) == 2:
-                margin, _ = pair_forces(legs, q, carriers[0], carriers[1], pose, arms, wrench, nothing, cuts, forces)
+                margin, _ = pair_forces((legs, q, pose, arms), (carriers[0], carriers[1]), wrenches, cuts, forces)
                 costs[step, k] += LACKING * max(0.0, -margin)
     return costs
 
@@ -124,10 +124,10 @@ def _crowding(
     own = board.holds[on]
     others = [(hold.x, hold.y) for k, hold in enumerate(board.holds) if k != on]
     radius = max(hold.radius for hold in board.holds)
-    discs = discs_near(discs_of(others, radius), pose)
+    obstacles = discs_near(discs_of(others, radius), pose), wall, robot.link_radius, NO_HOOK
     out = []
     for posture in found:
-        room = clearance(legs[i], posture.angles[0], posture.angles[1], discs, wall, robot.link_radius, NO_HOOK)
+        room = clearance(legs[i], posture.angles[0], posture.angles[1], obstacles)
         if robot.limbs[i].end.kind != "gripper":
             x, y = posture.grab
             for other_x, other_y in others:

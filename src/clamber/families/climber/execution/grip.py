@@ -6,19 +6,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..control.swing_path import clearance, find_way
-from .approach import (
-    CELLS,
-    HOOK,
-    LEAST_CLEARANCE,
-    MOST_POINTS,
-    SHIFTS,
-    STAND_OFFS,
-    Approach,
-    discs_near,
-    free_distance,
-    wall_of,
-)
+from .approach import LEAST_CLEARANCE, SHIFTS, STAND_OFFS, Approach, discs_near, free_distance
 from .climber import Climber
 from .motions import move_body, move_tip
 from .postures import Posture, postures
@@ -70,19 +58,14 @@ def way_out(climber: Climber, i: int, doubt: float) -> Floats:
 def _from_beside(
     climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture, doubt: float
 ) -> tuple[Floats, Floats, float] | None:
-    limb, body = climber.robot.limbs[i], climber.body
-    lower = np.array((limb.shoulder.lower, limb.elbow.lower))
-    upper = np.array((limb.shoulder.upper, limb.elbow.upper))
-    discs, path = discs_near(climber.discs(), pose), np.zeros((MOST_POINTS, 2))
+    body, ways = climber.body, climber.approaches
+    obstacles = ways.obstacles(discs_near(climber.discs(), pose))
     for towards, place, posture in _beside(climber, i, pose, hold, final, doubt):
         if _room(climber, i, pose, posture) < LEAST_CLEARANCE / 2:
             continue
-        count = find_way(
-            body.legs[i], lower, upper, CELLS, body.q[i] - body.play[i], posture.angles, discs, wall_of(climber.robot),
-            climber.robot.link_radius, HOOK, LEAST_CLEARANCE, path,
-        )  # fmt: skip
-        if count:
-            return path[:count].copy(), towards, float(np.hypot(*(hold - place)))
+        way = ways.way(i, body.q[i] - body.play[i], posture.angles, obstacles)
+        if way is not None:
+            return way, towards, float(np.hypot(*(hold - place)))
     return None
 
 
@@ -102,9 +85,8 @@ def _beside(
 
 
 def _room(climber: Climber, i: int, pose: Floats, posture: Posture) -> float:
-    discs = discs_near(climber.discs(), pose)
-    q, legs, robot = posture.angles, climber.body.legs, climber.robot
-    return float(clearance(legs[i], q[0], q[1], discs, wall_of(robot), robot.link_radius, HOOK))
+    ways = climber.approaches
+    return ways.room(i, posture.angles, ways.obstacles(discs_near(climber.discs(), pose)))
 
 
 AROUND: Final = ((0.0, 0.0), (0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8))

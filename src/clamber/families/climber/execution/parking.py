@@ -7,8 +7,8 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..control.swing_path import clearances, find_way
-from .approach import CELLS, HOOK, LEAST_CLEARANCE, Approaches, discs_near
+from ..control.swing_path import clearances
+from .approach import LEAST_CLEARANCE, Approaches, discs_near
 
 SPARE: Final = 0.012
 """Clearance along the body's way at which a limb is left where it is [m]: the body sways by about as much."""
@@ -38,7 +38,7 @@ def room_along(approaches: Approaches, i: int, angles: Floats, poses: Sequence[F
 def _rooms(approaches: Approaches, i: int, angles: Floats, discs: Floats) -> Floats:
     """Clearance of a limb from discs and body at each of its joint angles, shape (n, 2) [rad]; shape (n,) [m]."""
     rooms = np.empty(len(angles))
-    clearances(approaches.legs[i], angles, discs, approaches.wall, approaches.robot.link_radius, HOOK, rooms)
+    clearances(approaches.legs[i], angles, approaches.obstacles(discs), rooms)
     return rooms
 
 
@@ -73,14 +73,12 @@ def park(
         spare: Clearance with which it is well placed [m].
         margins: Clearances that the way keeps but where it begins with less, the first with which there is one [m].
     """
-    limb, leg, robot = approaches.robot.limbs[i], approaches.legs[i], approaches.robot
     seen = [discs_near(discs, pose) for pose in poses]
     every = np.concatenate(seen)
     here = float(_rooms(approaches, i, angles[None], every)[0])
     if here >= spare:
         return None
-    lower = np.array((limb.shoulder.lower, limb.elbow.lower))
-    upper = np.array((limb.shoulder.upper, limb.elbow.upper))
+    lower, upper = approaches.limits[i]
     grid = np.stack(np.meshgrid(*np.linspace(lower, upper, PITCH).T, indexing="ij"), axis=-1).reshape(-1, 2)
     rooms = _rooms(approaches, i, grid, every)
     enough = min(spare, float(rooms.max()))
@@ -89,10 +87,7 @@ def park(
     fit = grid[rooms >= enough - 1e-9]
     near = fit[np.argsort(np.abs(fit - angles).max(axis=1), kind="stable")[:8]]
     for least, goal in product(margins, near):
-        count = find_way(
-            leg, lower, upper, CELLS, angles, goal, seen[0], approaches.wall, robot.link_radius, HOOK, least,
-            approaches.path,
-        )  # fmt: skip
-        if count:
-            return approaches.path[:count].copy()
+        way = approaches.way(i, angles, goal, approaches.obstacles(seen[0]), least)
+        if way is not None:
+            return way
     return None

@@ -14,7 +14,7 @@ from ....types import Floats
 from ..control.backlash import weight_moment
 from ..control.body_estimate import ENCODER
 from ..control.body_tick import BodyWork, command_tick, see_tick
-from ..control.hook_forces import MOST_CUTS, pair_forces
+from ..control.hook_forces import MOST_CUTS, NOTHING, pair_forces
 from ..control.limb_chain import chain_of_limb, legs_of
 from ..control.planar_limb import LIMB_TASK
 from ..control.virtual_potential import repel_limbs
@@ -198,10 +198,8 @@ class WholeBody:
             q[i], arms[i] = found[0].angles, self.tasks[i].place - pose[:2]
         if len(carriers) != 2:
             return 0.0
-        wrench = np.array((0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])))
-        margin, _ = pair_forces(
-            self.legs, q, carriers[0], carriers[1], pose, arms, wrench, np.zeros(3), self._cuts, forces
-        )
+        wrenches = (0.0, self.robot.weight, weight_moment(self.legs, q, pose[2])), NOTHING
+        margin, _ = pair_forces((self.legs, q, pose, arms), (carriers[0], carriers[1]), wrenches, self._cuts, forces)
         return float(margin)
 
     @property

@@ -105,7 +105,7 @@ def _grips(
         if is_late():
             return None
         end = min(places, first + PIECE)
-        fits = find_grips(framed.record, scratch[0], first, end, n, starts, *listed)
+        fits = find_grips(framed.record, scratch[0], (first, end), n, starts, listed)
         if fits < 0:
             found, masks, grabs = (np.concatenate((part, np.zeros(3 * len(part), part.dtype))) for part in listed)
             listed = found, masks, grabs
@@ -132,12 +132,8 @@ def _sweep(
         sort_sources(left[stage], first_of, order)
         last = int(np.searchsorted(first_of, len(order))) + 1
         at_layer = np.zeros(3, np.int64)
-        queues = (
-            np.zeros(cells, np.uint64),
-            np.zeros(cells, np.uint64),
-            np.zeros((2, cells), np.int64),
-            np.zeros(cells, np.uint64),
-        )
+        reached, pending, carried = (np.zeros(cells, np.uint64) for _ in range(3))
+        scratch_of_stage = reached, pending, np.zeros((2, cells), np.int64), carried, members
         more = True
         while more:
             if is_late():
@@ -145,8 +141,7 @@ def _sweep(
                 left[:stage] = 0
                 return
             more = sweep_back(
-                record, masks, grabs, beside, cross, place_of, left[stage], first_of[: last + 1], order, *queues, members,
-                at_layer,
+                record, (masks, grabs), (beside, cross), place_of, left[stage], (first_of[: last + 1], order), scratch_of_stage, at_layer,
             )  # fmt: skip
 
 

@@ -172,21 +172,22 @@ def can_hold(p, s, i):
 
 
 @kernel
-def find_grips(p, s, first_place, end_place, n, starts, found, hold_masks, grab_masks):
+def find_grips(p, s, places, n, starts, listed):
     """List the grips of some places, with the angles at which they can be held and grabbed, behind those of the places before.
 
     Args:
         p: Parameters with the box of places.
         s: Scratch, one stance.
-        first_place, end_place: Which places; all before them are listed.
+        places: The first place and the one after the last; all before them are listed.
         n: Number of grips listed before.
         starts: Output, see `grip_starts`.
-        found: Output, the holds; as many as there is room for.
-        hold_masks, grab_masks: Output, bit sets of angles, shape (room,).
+        listed: Output, the holds, as many as there is room for, and bit sets of the angles that hold and that grab, shape (room,) each.
 
     Returns:
         Number of grips listed by now, or -1 if there is no room.
     """
+    first_place, end_place = places
+    found, hold_masks, grab_masks = listed
     for where in range(first_place, end_place):
         put(p, s, where, 0)
         clear = not p.hard & (1 << CLEARANCE) or nearest_hold(p, s.x, s.y) - p.clearance >= -TOLERANCE

@@ -93,8 +93,9 @@ def sort_sources(values, first_of, order):
 
 
 @inlined
-def push(state, mask, reached, pending, queue, n):
-    """Add angles to a state of the next layer; returns the queue's length."""
+def push(state, mask, seen, n):
+    """Add angles to a state of the next layer, by `seen`: what is reached, what is pending, the queue; returns the queue's length."""
+    reached, pending, queue = seen
     new = mask & ~reached[state]
     if new:
         if not pending[state]:
@@ -142,8 +143,13 @@ def find_beside(p, beside):
 
 
 @kernel
-def push_moves(p, where, lap, members, count, mask, masks, beside, cross, reached, pending, queue, n):
-    """The places from which a body step leads to a state; returns the queue's length."""
+def push_moves(p, here, mask, masks, moves, seen, n):
+    """The places from which a body step leads to a state; returns the queue's length.
+
+    `here`: its place, lap, grips and their count; `moves`: `beside` and `cross` of `sweep_back`; `seen`: see `push`.
+    """
+    where, lap, members, count = here
+    beside, cross = moves
     states = all_states(p)
     for axis in range(4):
         if not p.allowed & (1 << axis):
@@ -155,30 +161,31 @@ def push_moves(p, where, lap, members, count, mask, masks, beside, cross, reache
         b = beside[grip_at(p, where, members[1, 0], members[1, 1]), axis]
         if a < 0 or b < 0:
             continue
-        here = mask & masks[grip_at(p, other, members[0, 0], a)] & masks[grip_at(p, other, members[1, 0], b)]
+        angles = mask & masks[grip_at(p, other, members[0, 0], a)] & masks[grip_at(p, other, members[1, 0], b)]
         if count == 3:
             c = beside[grip_at(p, where, members[2, 0], members[2, 1]), axis]
             if c < 0:
                 continue
-            here &= masks[grip_at(p, other, members[2, 0], c)]
+            angles &= masks[grip_at(p, other, members[2, 0], c)]
             state = triple_state(p, other, a, b, c)
         else:
             state = pair_state(p, other, members[0, 0], a, members[1, 0], b)
-        if not here:
+        if not angles:
             continue
         # a step over the branch cut changes the lap; at either end of the laps kept, all laps beyond count as one
         over = cross[other, axis]
         before = lap - over
         if 0 <= before < p.laps_most:
-            n = push(before * states + state, here, reached, pending, queue, n)
+            n = push(before * states + state, angles, seen, n)
         if over and ((lap == 0 and over < 0) or (lap == p.laps_most - 1 and over > 0)):
-            n = push(lap * states + state, here, reached, pending, queue, n)
+            n = push(lap * states + state, angles, seen, n)
     return n
 
 
 @kernel
-def push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pending, queue, n):
-    """The states from which a release or a grab leads to a state; returns the queue's length."""
+def push_limbs(p, here, mask, masks, grabs, seen, n):
+    """The states from which a release or a grab leads to a state; returns the queue's length. Arguments as in `push_moves`."""
+    where, lap, members, count = here
     layer = lap * all_states(p)
     i = members[0, 0]
     u = members[0, 1]
@@ -193,23 +200,23 @@ def push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pendi
             u = members[i, 1]
             v = members[j, 1]
             was = members[k, 1]
-            here = mask & grabs[grip_at(p, where, k, was)]
-            if not here:
+            angles = mask & grabs[grip_at(p, where, k, was)]
+            if not angles:
                 continue
-            n = push(layer + pair_state(p, where, i, u, j, v), here, reached, pending, queue, n)
+            n = push(layer + pair_state(p, where, i, u, j, v), angles, seen, n)
             for c in range(grips(p, where, k)):
                 if c != was and not on_one_hold(p, where, i, u, k, c) and not on_one_hold(p, where, j, v, k, c):
                     members[k, 1] = c
                     state = triple_state(p, where, members[0, 1], members[1, 1], members[2, 1])
-                    n = push(layer + state, here & masks[grip_at(p, where, k, c)], reached, pending, queue, n)
+                    n = push(layer + state, angles & masks[grip_at(p, where, k, c)], seen, n)
             members[k, 1] = was
         return n
     for k in range(p.n_limbs):
         if k in (i, j):
             continue
         for c in range(grips(p, where, k)):
-            here = mask & masks[grip_at(p, where, k, c)]
-            if not here or on_one_hold(p, where, i, u, k, c) or on_one_hold(p, where, j, v, k, c):
+            angles = mask & masks[grip_at(p, where, k, c)]
+            if not angles or on_one_hold(p, where, i, u, k, c) or on_one_hold(p, where, j, v, k, c):
                 continue
             if p.n_limbs == 3:
                 if p.allowed & RELEASES:
@@ -217,59 +224,63 @@ def push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pendi
                     w0 = u if i == 0 else c
                     w1 = u if i == 1 else (v if j == 1 else c)
                     w2 = v if j == 2 else c
-                    n = push(layer + triple_state(p, where, w0, w1, w2), here, reached, pending, queue, n)
+                    n = push(layer + triple_state(p, where, w0, w1, w2), angles, seen, n)
             elif p.allowed & GRABS:
-                by_i = here & grabs[grip_at(p, where, i, u)]
-                n = push(layer + pair_state(p, where, j, v, k, c), by_i, reached, pending, queue, n)
-                by_j = here & grabs[grip_at(p, where, j, v)]
-                n = push(layer + pair_state(p, where, i, u, k, c), by_j, reached, pending, queue, n)
+                by_i = angles & grabs[grip_at(p, where, i, u)]
+                n = push(layer + pair_state(p, where, j, v, k, c), by_i, seen, n)
+                by_j = angles & grabs[grip_at(p, where, j, v)]
+                n = push(layer + pair_state(p, where, i, u, k, c), by_j, seen, n)
     if p.atomic and p.allowed & GRABS:  # one of two holders may change its hold in one action
         for side in range(2):
             k = i if side == 0 else j
             was = u if side == 0 else v
-            here = mask & grabs[grip_at(p, where, k, was)]
+            angles = mask & grabs[grip_at(p, where, k, was)]
             for c in range(grips(p, where, k)):
-                if here and c != was and not on_one_hold(p, where, j if side == 0 else i, v if side == 0 else u, k, c):
+                if (
+                    angles
+                    and c != was
+                    and not on_one_hold(p, where, j if side == 0 else i, v if side == 0 else u, k, c)
+                ):
                     state = pair_state(p, where, i, c if side == 0 else u, j, v if side == 0 else c)
-                    n = push(layer + state, here & masks[grip_at(p, where, k, c)], reached, pending, queue, n)
+                    n = push(layer + state, angles & masks[grip_at(p, where, k, c)], seen, n)
     return n
 
 
 @kernel
-def sweep_back(
-    p, masks, grabs, beside, cross, place_of, values, first_of, order, reached, pending, queues, carried, members, at_layer
-):  # fmt: skip
+def sweep_back(p, angles, moves, place_of, values, sources, scratch, at_layer):
     """One layer of the search that fills `values` with the fewest relaxed actions from every state to the goal states marked in it.
 
     Args:
         p: Parameters.
-        masks, grabs: Angles at which each grip holds and can be grabbed.
-        beside: Numbers of the grips at the places beside (`find_beside`).
-        cross: Change of the lap of a body step from each place along +x, -x, +y, -y, shape (places, 4).
+        angles: At which each grip holds and can be grabbed.
+        moves: Numbers of the grips at the places beside (`find_beside`), and the change of the lap of a body step from each place along
+            +x, -x, +y, -y, shape (places, 4).
         place_of: Place of each state.
         values: In: as `mark_goals` left it. Out, after the last layer: fewest actions, UNREACHED where there is no way.
-        first_of, order: The marked entries by value (`sort_sources`).
-        reached, pending: Scratch, zeros, a word per lap and state.
-        queues: Scratch, shape (2, laps times states).
-        carried: Scratch, what the present layer reaches, shape (laps times states,).
-        members: Scratch, shape (3, 2).
+        sources: The marked entries by value (`sort_sources`).
+        scratch: What is reached and what is pending, zeros, a word per lap and state; queues, shape (2, laps times states); what the
+            present layer reaches, shape (laps times states,); grips, shape (3, 2).
         at_layer: Where the search is, updated: the layer that comes next, whose entries are final after it; entries of its queue; which of
             the two queues it is. Zeros at first.
 
     Returns:
         Whether there are more layers.
     """
+    masks, grabs = angles
+    first_of, order = sources
+    reached, pending, queues, carried, members = scratch
     states = place_of.shape[0]
     free = p.angles_kept == 1
     layer = at_layer[0]
     n = at_layer[1]
     now = at_layer[2]
+    seen, then = (reached, pending, queues[now]), (reached, pending, queues[1 - now])
     if n or layer + 1 < first_of.shape[0]:
         if layer + 1 < first_of.shape[0]:
             for at in range(first_of[layer], first_of[layer + 1]):
                 entry = order[at]
                 bit = ALL_ANGLES if free else np.uint64(1) << np.uint64(entry % p.angles_kept)
-                n = push(entry // p.angles_kept, bit, reached, pending, queues[now], n)
+                n = push(entry // p.angles_kept, bit, seen, n)
         if layer + 1 >= UNREACHED:
             return False
         m = 0
@@ -301,11 +312,10 @@ def sweep_back(
                 near = spin(p, mask)
                 for k in range(count):
                     near &= masks[grip_at(p, where, members[k, 0], members[k, 1])]
-                m = push(state, near, reached, pending, queues[1 - now], m)
-            m = push_moves(
-                p, where, lap, members, count, mask, masks, beside, cross, reached, pending, queues[1 - now], m
-            )
-            m = push_limbs(p, where, lap, members, count, mask, masks, grabs, reached, pending, queues[1 - now], m)
+                m = push(state, near, then, m)
+            here = where, lap, members, count
+            m = push_moves(p, here, mask, masks, moves, then, m)
+            m = push_limbs(p, here, mask, masks, grabs, then, m)
         at_layer[0] = layer + 1
         at_layer[1] = m
         at_layer[2] = 1 - now

@@ -194,8 +194,8 @@ def least_pair(p, s, a, b, use_a, use_b, norm):
                     if hi < lo:
                         lo = 0.5 * (lo + hi)
                         hi = lo
-                torque_lines(limbs(p)[a], hold_a, s.solved[a], i, ax, ay, f[:4], alpha[:2], beta[:2])
-                torque_lines(limbs(p)[b], hold_b, s.solved[b], j, bx, by, f[4:], alpha[2:], beta[2:])
+                torque_lines(limbs(p)[a], hold_a, s.solved[a], i, (ax, ay), f[:4], alpha[:2], beta[:2])
+                torque_lines(limbs(p)[b], hold_b, s.solved[b], j, (bx, by), f[4:], alpha[2:], beta[2:])
                 if norm:
                     lam, value = least_norm(alpha, beta, lo, hi)
                 else:
@@ -211,8 +211,9 @@ def least_pair(p, s, a, b, use_a, use_b, norm):
 
 
 @kernel
-def torque_lines(limb, hold, solved, branch, px, py, f, alpha, beta):
+def torque_lines(limb, hold, solved, branch, port, f, alpha, beta):
     """Torque over limit of both joints along a general split: alpha + beta lam."""
+    px, py = port
     at = 1 + 5 * branch
     for joint in range(2):
         rx = hold.x - (px if joint == 0 else solved[at + 1])

@@ -25,8 +25,10 @@ CORNERS = 16
 
 
 @kernel
-def cone_rows(a, row, column, mx, my, c_cone, s_cone, slack, last):
-    """Two rows: the force -F of columns (column, column + 1) within a cone about (mx, my), with slack in column `last`."""
+def cone_rows(a, row, column, axis, cone, slack, last):
+    """Two rows: -F of columns (column, column + 1) within a cone, its cosine and sine, about an axis, with slack in column `last`."""
+    mx, my = axis
+    c_cone, s_cone = cone
     for side in range(2):
         turn = c_cone if side == 0 else -c_cone
         a[row, column] = mx * s_cone - my * turn
@@ -48,8 +50,10 @@ def _balance_rows(a, s, hold, column):
 
 
 @inlined
-def _torque_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
+def _torque_rows(rows, row, column, s, i, ends, goal, last):
     """Two rows a joint: the motors of limb `i` within their limits, or within what is made least; the next row."""
+    a, b = rows
+    limb, hold, weight = ends
     px, py = port_of(limb, s)
     branch_at = 1 + 5 * s.branch[i]
     for joint in range(1 if s.branch[i] == UNDECIDED else 2):
@@ -69,14 +73,16 @@ def _torque_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
 
 
 @inlined
-def _cut_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
+def _cut_rows(rows, row, column, s, i, ends, goal, last):
     """Rows of what limb `i`'s end and its hold can bear: cones, least pull, strength; the next row."""
+    a, b = rows
+    limb, hold, weight = ends
     slack = 1.0 if goal == SLACK else 0.0
     branch_at = 1 + 5 * s.branch[i]
     if limb.c_cone > -1.5 and s.branch[i] != UNDECIDED:
         gx = s.solved[i, branch_at + 3]
         gy = s.solved[i, branch_at + 4]
-        row = cone_rows(a, row, column, gx, gy, limb.c_cone, limb.s_cone, slack, last)
+        row = cone_rows(a, row, column, (gx, gy), (limb.c_cone, limb.s_cone), slack, last)
         if limb.pull > 0.0:
             a[row, column] = gx
             a[row, column + 1] = gy
@@ -84,7 +90,7 @@ def _cut_rows(a, b, row, column, s, i, limb, hold, weight, goal, last):
             b[row] = -limb.pull / weight
             row += 1
     if hold.c_cone > -1.5:
-        row = cone_rows(a, row, column, hold.dir_x, hold.dir_y, hold.c_cone, hold.s_cone, slack, last)
+        row = cone_rows(a, row, column, (hold.dir_x, hold.dir_y), (hold.c_cone, hold.s_cone), slack, last)
     strength = min(hold.strength, limb.strength)
     if strength < math.inf:
         for side in range(CORNERS):
@@ -143,9 +149,10 @@ def many_split(p, s, carriers, goal, forces):
             hold = holds(p)[s.hold[i]]
             limb = limbs(p)[i]
             _balance_rows(a, s, hold, column)
-            row = _torque_rows(a, b, row, column, s, i, limb, hold, weight, goal, last)
+            ends = limb, hold, weight
+            row = _torque_rows((a, b), row, column, s, i, ends, goal, last)
             if goal != UNCUT:
-                row = _cut_rows(a, b, row, column, s, i, limb, hold, weight, goal, last)
+                row = _cut_rows((a, b), row, column, s, i, ends, goal, last)
             column += 2
     if not maximise(a[:row], b[:row], c, table, basis, x):
         return False, 0.0

@@ -147,20 +147,20 @@ def move_together(lengths, targets, moving, most):
 
 
 @kernel
-def trim_lag(lengths, sensed, before, raised, stands, still, slack, share, trims):
+def trim_lag(lengths, sensed, was, stands, still, slack, share, trims):
     """Make up for a part of what loaded legs give way, where they are at rest: change what is added to their commands.
 
     Args:
         lengths: As wanted, shape (n,) [m].
         sensed: As they are, shape (n,) [m].
-        before: As wanted a tick ago, shape (n,) [m].
-        raised: By how much all legs were to grow since then [m].
+        was: As wanted a tick ago, shape (n,), and by how much all legs were to grow since then [m].
         stands: 1 for legs that stand, shape (n,).
         still: A leg that was to move by less beyond that is at rest [m].
         slack: Smaller errors stay [m].
         share: Of the error that is made up for now [-].
         trims: Changed, shape (n,) [m].
     """
+    before, raised = was
     for i in range(lengths.shape[0]):
         if stands[i] and abs(lengths[i] - before[i] - raised) < still:
             short = lengths[i] - sensed[i]

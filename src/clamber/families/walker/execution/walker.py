@@ -380,7 +380,7 @@ class Walker:
         before = self.lengths.copy()
         self.left = abs(rise) + move_together(self.lengths, self._targets, self.stands, most)
         trim_lag(
-            self.lengths, self.sensed, before, self.wanted[0] - z, self.stands, STILL * most,
+            self.lengths, self.sensed, (before, self.wanted[0] - z), self.stands, STILL * most,
             SLACK * self.robot.legs.resolution, self.settings.trim * self.period, self._trims,
         )  # fmt: skip
 
