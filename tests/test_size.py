@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 100_322,
+    "lines": 100_405,
     "files": 663,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 18,
@@ -20,7 +20,8 @@ CEILINGS = {
 """As it is; lower them with every change that makes the source smaller. Lines were 94 971 before plans said whether they would be run,
 robots and boards were shown alone, and output had units to choose; 96 186 before Python had every command and logs and the viewer a scene
 in space, 97 933 before spatial runs, interrupts that end every command and poses of any number of coordinates; 100 387 before trials of
-two works were compared, 100 439 before the laws of whole bodies were."""
+two works were compared, 100 439 before the laws of whole bodies were; 100 322 before control took climbers by their
+weight."""
 GROWING = PACKAGE / "families" / "spatial"
 """A family that is being built: its files and lines are counted apart, until it is whole; all other figures are of the whole package."""
 GROWN = f"lines of {GROWING.name}", f"files of {GROWING.name}"

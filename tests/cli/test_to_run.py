@@ -85,28 +85,30 @@ def test_it_plans_as_run_does_with_no_options_of_other_searches(clamber: Run) ->
     assert "--width" in err and "as `clamber run` does" in err
 
 
-WEAK = "asks up to 8 N m of every joint, and joint 1 of 'gecko4' gives 5 N m"
+MANY = "is for 3 limbs, and 'gecko4' has 4 that grip"
 
 
-def test_a_robot_too_weak_for_climbers_control_is_carried_out_in_space(clamber: Run, tmp_path: Path) -> None:
+def test_a_robot_with_more_limbs_than_climbers_control_knows_is_carried_out_in_space(
+    clamber: Run, tmp_path: Path
+) -> None:
     plan, low = str(tmp_path / "p.json"), ("--set", "goal.y_min=45 cm")
     code, out, err = clamber("run", "gecko-climb", *low)
     assert code == 0 and "carried out: 'gecko-climb'" in out
-    assert WEAK in err and "carried out as a robot in space" in err
+    assert MANY in err and "carried out as a robot in space" in err
     assert clamber("plan", "gecko-climb", *low, "--to-run", "-q", "-o", plan)[0] == 0
     assert clamber("run", plan, "-q")[0] == 0
     code, out, err = clamber("run", "gecko-climb", "--force", "--set", "plant.law=none", "-q")
     assert code == 2 and "motor_limits" in err  # of the climber's own plant
 
 
-def test_a_plan_of_a_robot_too_weak_for_climbers_control_is_refused(clamber: Run, tmp_path: Path) -> None:
+def test_a_plan_of_a_robot_that_climbers_control_does_not_know_is_refused(clamber: Run, tmp_path: Path) -> None:
     plan = str(tmp_path / "p.json")
     code, out, _ = clamber("plan", "gecko-climb", "--planner", "greedy", "-q", "-o", plan)
-    assert code == 0 and WEAK in " ".join(out.split()) and "--to-run" not in out
+    assert code == 0 and MANY in " ".join(out.split()) and "--to-run" not in out
     for command in ("run", "trials"):
         code, out, err = clamber(command, plan, "-q")
         assert (code, out) == (2, "")
-        assert WEAK in err and "--force" in err
+        assert MANY in err and "--force" in err
 
 
 def test_three_weak_limbs_are_refused_before_anything_is_searched_for(clamber: Run, tmp_path: Path) -> None:
@@ -116,9 +118,9 @@ def test_three_weak_limbs_are_refused_before_anything_is_searched_for(clamber: R
     assert clamber("new", "board", "-o", wall)[0] == 0
     assert clamber("new", "task", "--robot", robot, "--board", wall, "-o", task)[0] == 0
     for words in (("run", task, "-q"), ("plan", task, "--to-run", "-q")):
-        code, out, err = clamber(*words)
+        code, out, err = clamber(*words, "--set", "motor.torque_limit=3 N m")
         assert (code, out) == (1, "")
-        assert "gives 5 N m" in err and "nothing has moved" in err
+        assert "asks up to 4 N m of every joint" in err and "gives 3 N m" in err and "nothing has moved" in err
 
 
 def test_that_climbs_of_a_robot_are_not_tried_is_said_before_it_is_planned() -> None:
@@ -129,11 +131,13 @@ def test_that_climbs_of_a_robot_are_not_tried_is_said_before_it_is_planned() -> 
     assert all(open_work(tried).note is None for tried in ("ladder", "gap", "wall-gripper", "patch-walk", "slope-walk"))
 
 
-def test_stronger_motors_are_not_refused(clamber: Run, tmp_path: Path) -> None:
+def test_motors_are_asked_for_as_much_as_the_robot_is_heavy(clamber: Run, tmp_path: Path) -> None:
     plan = str(tmp_path / "p.json")
-    strong = ("--set", "motor.torque_limit=8 N m")
-    assert clamber("plan", "gecko-climb", *strong, "--planner", "greedy", "-q", "-o", plan)[0] == 0
-    assert "N m of every joint" not in clamber("check", plan)[1]
+    for torque, weight, asked in ((5, 40, "asks up to 7.99 N m"), (5, 25, None), (8, 80, "asks up to 16 N m")):
+        changed = ("--set", f"motor.torque_limit={torque} N m", "--set", f"weight={weight} N")
+        assert clamber("plan", "ladder", *changed, "--planner", "greedy", "-q", "-o", plan)[0] == 0
+        told = " ".join(clamber("check", plan)[1].split())
+        assert (asked in told) if asked else ("N m of every joint" not in told)
 
 
 @pytest.mark.slow

@@ -183,23 +183,23 @@ def sample_tick(handle, time, step, pose, q, row):
     """A sample of now, in the order of `climb_titles`.
 
     Args:
-        handle: Holds `BodyWork`.
+        handle: Holds `BodyWork`, and how many times larger the torques are that are given.
         time: Since the start [s].
         step: Number of the action that is carried out.
         pose, q: Of the body and of all joints as they really are, shape (3,) [m], [rad] and (n, 2) [rad]; without rows where nobody tells.
         row: Filled, shape (columns,).
     """
-    work = opened(handle)[0]
+    work, load = opened(handle)
     row[0] = time
     row[1] = step
     at = 2
     for part in (work.settled, work.aimed, pose):
         row[at : at + part.size] = part
         at += part.size
-    for angles in (work.q, q, work.torques):
-        for i in range(angles.shape[0]):
-            row[at] = angles[i, 0]
-            row[at + 1] = angles[i, 1]
+    for joints, times in ((work.q, 1.0), (q, 1.0), (work.torques, load)):
+        for i in range(joints.shape[0]):
+            row[at] = times * joints[i, 0]
+            row[at + 1] = times * joints[i, 1]
             at += 2
     n = work.jobs.size
     for i in range(n):

@@ -6,6 +6,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Records
+from ....units import OUNCE_FORCE, OZ_IN
 from ..control.body import (
     KINEMATIC,
     LIMIT_COUNTED,
@@ -19,6 +20,15 @@ from ..control.body import (
 from ..control.body_tick import BODY
 from ..robot.robot import LimbedRobot
 
+USUAL_WEIGHT: Final = 144 * OUNCE_FORCE
+"""Of the robot on which the forces and torques of climbers' control were chosen [N]. Control takes every robot for one of this weight that
+moves the same (`LimbedRobot.at_weight`), and its motors are driven as many times harder as it is heavier."""
+USUAL_SPEED: Final = 3.0
+"""Of its joints without load [rad/s]; those of free limbs go faster or slower as the slowest motor does."""
+USUAL_INERTIA: Final = 0.7652
+"""Of its heaviest rotor and gear, reflected: laws count accelerations in units of that [kg m^2]."""
+USUAL_AGILITY: Final = 3000 * OZ_IN / USUAL_INERTIA
+"""With which its weakest joint speeds up its rotor [rad/s^2]; those of free limbs speed up as the weakest does."""
 MAPPINGS: Final = {"thesis": THESIS, "kinematic": KINEMATIC, "wrench": WRENCH}
 LIMITS: Final = {
     "none": LIMIT_NONE,
@@ -31,7 +41,7 @@ LIMITS: Final = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BodyGains:
-    """Gains of body and limbs."""
+    """Gains of body and limbs; their forces and torques are those of a robot of `USUAL_WEIGHT`, and go with the weight."""
 
     kp: tuple[float, float, float] = (100.0, 50.0, 10.0)
     """Of the maps "thesis" and "kinematic"; those of the thesis's Table 4.1."""
@@ -88,14 +98,14 @@ MOST_LIMBS: Final = 3
 def unfit(robot: LimbedRobot) -> str | None:
     """Why a robot cannot do what control asks of it; None where nothing is known against it.
 
-    Control has a limb tug at its hold by up to `firm`, whatever the robot's size: motors that give less stand under full torque there,
-    which is taken for a fault.
+    Control has a limb tug at its hold by up to `firm`, in proportion to the robot's weight: motors that give less stand under full torque
+    there, which is taken for a fault.
     """
     weakest = min(robot.joints, key=robot.torque_limit_of)
-    least = robot.torque_limit_of(weakest)
-    if least < USUAL.firm:
+    least, asked = robot.torque_limit_of(weakest), USUAL.firm * robot.weight / USUAL_WEIGHT
+    if least < asked:
         return (
-            f"today's control of climbers asks up to {USUAL.firm:g} N m of every joint, and joint {weakest.number} of "
+            f"today's control of climbers asks up to {asked:.3g} N m of every joint, and joint {weakest.number} of "
             f"'{robot.name}' gives {least:.3g} N m (motor.torque_limit); docs/own-robot.md says which robots climb"
         )
     n = len(robot.limbs)
@@ -109,11 +119,18 @@ def usual_alpha(limit: str) -> float:
     return 0.0 if limit == "thesis" else USUAL.alpha
 
 
+def inertia_over_usual(robot: LimbedRobot) -> float:
+    """Of the heaviest rotor [-]: what gains that make joints' accelerations of errors are multiplied by."""
+    return max(joint.inertia for joint in robot.joints) / USUAL_INERTIA
+
+
 def records_of(gains: BodyGains, robot: LimbedRobot) -> Records:
     """The gains as the kernels read them, records of `BODY`, shape (1,)."""
     out = np.zeros(1, BODY)
     out["mapping"], out["limit"] = MAPPINGS[gains.mapping], LIMITS[gains.limit]
-    for name in ("kp", "kd", "stiffness", "damping", "joint_kp", "joint_kd", "cling", "gentle", "firm", "weight_fed"):
+    for name in ("stiffness", "cling", "gentle", "firm", "weight_fed"):
         out[name] = getattr(gains, name)
+    for name in ("kp", "kd", "damping", "joint_kp", "joint_kd"):
+        out[name] = inertia_over_usual(robot) * np.array(getattr(gains, name))
     out["weight"] = robot.weight
     return out

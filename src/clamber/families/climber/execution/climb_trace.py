@@ -137,7 +137,7 @@ class TracedClimber(Climber):
         """Number of the action that is carried out."""
         self.samples = Samples(self, every)
         self._width = len(self.titles)
-        self._sample = ready(sample_tick, Handle(self.body.work), 0.0, 0.0, *UNKNOWN, np.empty(self._width))
+        self._sample = ready(sample_tick, Handle(self.body.work, self.load), 0.0, 0.0, *UNKNOWN, np.empty(self._width))
 
     @property
     def limbs(self) -> tuple[str, ...]:

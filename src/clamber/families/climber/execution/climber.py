@@ -18,7 +18,7 @@ from ..control.felt_force import HANGING, LOST, PINNED, PUSHED, SLACK, STRAINED,
 from ..robot.robot import LimbedRobot
 from ..world.board import Board
 from .approach import Approaches, rank
-from .body_gains import BodyGains
+from .body_gains import USUAL_AGILITY, USUAL_SPEED, USUAL_WEIGHT, BodyGains
 from .fall import FallWatch
 from .hold_map import HoldMap, TipDifference
 from .limb_task import LimbTask
@@ -84,7 +84,13 @@ class Climber:
         terrain: Floats | None = None,
         watched: bool = False,
     ) -> None:
-        self.robot, self.plant, self.map_error = robot, plant, map_error
+        self.robot, self.plant, self.map_error = robot.at_weight(USUAL_WEIGHT), plant, map_error
+        self.load = robot.weight / self.robot.weight
+        """How many times larger the plant's forces and torques are than those that control works with."""
+        robot = self.robot
+        self.swiftness = min(map(robot.no_load_speed_of, robot.joints)) / USUAL_SPEED
+        self.agility = min(robot.torque_limit_of(one) / one.inertia for one in robot.joints) / USUAL_AGILITY
+        """Of its joints, over that of the robot on which control's speeds were chosen [-]."""
         self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.fall, self.slip = FallWatch(self.body), SlipWatch(self.body)
         self.watched = watched
@@ -166,13 +172,16 @@ class Climber:
             self.balance()
         self.gripped[:] = sensed.gripped
         falls, lost, signs = self.fall.see(), self.slip.see(self.fall.forces), self._see_signs()
-        self.plant.actuate(self.body.command(), self.grips)
+        self.body.command()
+        self.drive()
         self.plant.step()
         self.ticks += 1
         if signs & UNHELD:
             raise FallenError("no limb holds the body")
         if falls:
-            raise FallenError(f"nothing carries the robot: all tips together feel {self.fall.carried:.0f} N")
+            raise FallenError(
+                f"nothing carries the robot: all tips together feel {self.load * self.fall.carried:.0f} N"
+            )
         if lost is not None:
             name, hold = self.robot.limbs[lost].name, self.body.tasks[lost].hold
             raise SlippedError(
@@ -189,6 +198,10 @@ class Climber:
                 raise SlippedError(
                     beside, f"the hook of '{name}' is beside hold {hold}, and dragged along", surely=True
                 )
+
+    def drive(self) -> None:
+        """Have the plant give the torques of this tick."""
+        self.plant.actuate(self.load * self.body.torques, self.grips)
 
     def _heed(self, signs: int) -> None:
         """Count for how long there have been signs that end the climb.
@@ -255,7 +268,7 @@ class Climber:
     def brace_tick(self) -> None:
         """One tick of it: a plant whose link has failed is left to hold by itself."""
         if self.monitor.linked:
-            self.plant.actuate(self.body.torques, self.grips)
+            self.drive()
         self.plant.step()
         self.ticks += 1
 

@@ -15,7 +15,7 @@ def load_capacity(robot: LimbedRobot, legs: Records, places: Floats, stance: Rec
     """How well the worst hook or motor of two carrying limbs is off under the weight [N]: negative if none of the splits meets all wishes.
 
     Args:
-        robot: The climber.
+        robot: The climber at `USUAL_WEIGHT`.
         legs: Its `legs_of`.
         places: Of the board's holds, world frame, shape (n_holds, 2) [m].
         stance: One of a plan.

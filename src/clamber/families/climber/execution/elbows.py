@@ -15,6 +15,7 @@ from ..statics.elbows import has_assignment
 from ..statics.interference import hook_gap
 from ..world.board import Board
 from .approach import discs_near, discs_of, wall_of
+from .body_gains import USUAL_WEIGHT
 from .postures import Posture, postures
 
 CHANGE: Final = 0.4
@@ -73,6 +74,7 @@ def choose_elbows(robot: LimbedRobot, board: Board, stances: Records) -> tuple[I
 
 def _costs(robot: LimbedRobot, board: Board, stances: Records, states: Ints) -> Floats:
     """What each choice of branches counts after each action, shape (n, states)."""
+    robot = robot.at_weight(USUAL_WEIGHT)
     legs, limbs = legs_of(robot), len(robot.limbs)
     cuts, forces = np.zeros((MOST_CUTS, 2)), np.zeros((limbs, 2))
     wrenches = (0.0, robot.weight, 0.0), NOTHING

@@ -15,6 +15,7 @@ from ....tasks.library import change_task, name_to_type
 from ....types import Floats, Ints, Records
 from ..planning.task import LimbedTask
 from ..statics.elbows import open_branches
+from .body_gains import USUAL_WEIGHT
 from .contact_capacity import load_capacity
 from .elbows import choose_elbows
 
@@ -93,9 +94,10 @@ class ExecutablePlan:
         return range(step, end)
 
     def serves(self, legs: Records, i: int, step: int, elbow: int) -> bool:
-        """Whether a limb of the robot's `legs` that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves.
+        """Whether a limb that takes a hold at a step could keep its elbow on a side (+1, -1) until it leaves.
 
-        By the plan's checks, and by what hooks and motors bear: a hook that is taken from the wrong side may pull up where it is to carry.
+        By the plan's checks, and by what hooks and motors of the robot's `legs`, at `USUAL_WEIGHT`, bear: a hook that is taken from the
+        wrong side may pull up where it is to carry.
         """
         n, bit = len(self.task.robot.limbs), 1 if elbow > 0 else 2
         return all(
@@ -105,7 +107,7 @@ class ExecutablePlan:
 
     def _bears(self, legs: Records, i: int, step: int, elbow: int) -> bool:
         """Whether carriers would hold after a step, hardly worse than as chosen, with one limb's elbow on a side."""
-        robot, places, chosen = self.task.robot, self.task.world.positions(), self.elbows[step]
+        robot, places, chosen = self.task.robot.at_weight(USUAL_WEIGHT), self.task.world.positions(), self.elbows[step]
         other = np.where(np.arange(len(chosen)) == i, elbow, chosen)
         least = min(0.0, load_capacity(robot, legs, places, self.stances[step], chosen)) - WEAKER
         return load_capacity(robot, legs, places, self.stances[step], other) >= least

@@ -23,12 +23,12 @@ SLOW: Final = 0.04
 BODY_TURN: Final = 0.4
 """[rad/s]."""
 JOINT_SPEED: Final = 2.6
-"""Of a free limb's joints on their way, seven eighths of what their motors can [rad/s]."""
+"""Of a free limb's joints on their way, seven eighths of what their motors can, at `USUAL_SPEED` [rad/s]."""
 JOINT_AGILITY: Final = 14.0
-"""With which they come to it [rad/s^2]."""
+"""With which they come to it, half of what the weakest can, at `USUAL_AGILITY` [rad/s^2]."""
 SURGE: Final = 20.0
-"""Most that a joint is sped up by at corners of its way, in whichever direction: LIBRA's motors can do 27 at the elbow, and what they do to
-a limb the body feels [rad/s^2]."""
+"""Most that a joint is sped up by at corners of its way, in whichever direction, at `USUAL_AGILITY`: the body feels what motors do to limbs
+[rad/s^2]."""
 LAG: Final = (0.015, 0.045)
 """A limb this far behind on its way is slowed down, at the second until it has come after: its motors give all they can [rad]."""
 STANDS: Final = (0.1, 0.25)
@@ -249,13 +249,13 @@ def follow(
         i: Index of the limb.
         way: From corner to corner.
         lags: How far behind the limb is slowed down, and waited for [rad].
-        most: Speed of its joints; slower than they can, the limb gives way to less, for the body hardly sways then [rad/s].
+        most: Speed of its joints, at `USUAL_SPEED`; slower than they can, it gives way to less, for the body hardly sways then [rad/s].
     """
     task, period = climber.body.tasks[i], climber.plant.period
     lengths = np.abs(np.diff(way, axis=0)).max(axis=1)
     along = np.concatenate(([0.0], np.cumsum(lengths)))
     blend = max(2, round(BLEND / period))
-    done = at_speed(along[-1], period, most)
+    done = at_speed(along[-1], period, climber.swiftness * most, climber.agility * JOINT_AGILITY)
     angles = np.stack([np.interp(done, along, way[:, j]) for j in range(2)], axis=1)
     # rounded corners: a turn on the spot throws the body about
     window = np.hanning(blend + 2)[1:-1]
@@ -263,7 +263,7 @@ def follow(
     smooth = np.stack([np.convolve(padded[:, j], window / window.sum(), "valid") for j in range(2)], axis=1)
     rates = np.diff(smooth, axis=0) / period
     surges = np.diff(rates, axis=0, append=0.0) / period
-    paces = _round_corners(surges, window)
+    paces = _round_corners(surges, window, climber.agility * SURGE)
     task.mode = "swing_joint"
     body, aims = climber.body, np.zeros((3, 2))
     task.angles, task.rates, task.accelerations = aims
@@ -280,28 +280,28 @@ def follow(
     return bool(state == IS_THERE)
 
 
-def _round_corners(surges: Floats, window: Floats) -> Floats:
-    """Part of its speed with which a way is gone at each tick, so that no joint is sped up by more than `SURGE`.
+def _round_corners(surges: Floats, window: Floats, surge: float) -> Floats:
+    """Part of its speed with which a way is gone at each tick, so that no joint is sped up by more than `surge` [rad/s^2].
 
     Args:
         surges: Of the joints at full speed, shape (n, joints) [rad/s^2].
         window: Weights over which the pace changes, shape (ticks,).
     """
     most = np.abs(surges).max(axis=1)
-    paces = np.sqrt(SURGE / np.maximum(most, SURGE))
+    paces = np.sqrt(surge / np.maximum(most, surge))
     half = len(window) // 2
     wide = np.pad(paces, 2 * half, mode="edge")
     least = np.lib.stride_tricks.sliding_window_view(wide, 2 * half + 1).min(axis=1)
     return np.convolve(least, window[: 2 * half + 1] / window[: 2 * half + 1].sum(), "same")[half : half + len(paces)]
 
 
-def at_speed(length: float, period: float, most: float = JOINT_SPEED) -> Floats:
-    """How far along a way of some length one is at each tick, from rest to rest, at most so fast [rad/s]; shape (ticks,)."""
-    speed = min(most, float(np.sqrt(length * JOINT_AGILITY)))
-    rise = speed / JOINT_AGILITY
+def at_speed(length: float, period: float, most: float = JOINT_SPEED, agility: float = JOINT_AGILITY) -> Floats:
+    """How far along a way one is at each tick, from rest to rest, at most so fast [rad/s], [rad/s^2]; shape (ticks,)."""
+    speed = min(most, float(np.sqrt(length * agility)))
+    rise = speed / agility
     seconds = length / speed + rise if speed > 0.0 else 0.0
     t = period * np.arange(1, int(np.ceil(seconds / period)) + 1)
     left = np.maximum(seconds - t, 0.0)
-    up, down = 0.5 * JOINT_AGILITY * t**2, length - 0.5 * JOINT_AGILITY * left**2
+    up, down = 0.5 * agility * t**2, length - 0.5 * agility * left**2
     done: Floats = np.where(t < rise, up, np.where(left < rise, down, speed * (t - 0.5 * rise)))
     return done

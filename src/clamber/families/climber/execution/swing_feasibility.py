@@ -8,6 +8,7 @@ import numpy as np
 from ....types import Floats
 from ..control.limb_chain import legs_of
 from .approach import Approach, Approaches, Wish, discs_of
+from .body_gains import USUAL_WEIGHT
 from .contact_capacity import load_capacity
 from .executable_plan import ExecutablePlan
 from .hook import NEAR
@@ -36,7 +37,10 @@ def grabs_without_way(course: ExecutablePlan, error: float) -> list[int]:
         course: A plan, carried out on paper.
         error: How far the map may be off, each way along each axis [m].
     """
-    robot, holds = course.task.robot, {hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds}
+    robot, holds = (
+        course.task.robot.at_weight(USUAL_WEIGHT),
+        {hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds},
+    )
     radius = max(hold.radius for hold in course.task.world.holds)
     ways = Approaches(robot, legs_of(robot))
     discs = discs_of(holds.values(), radius + error)
@@ -94,7 +98,7 @@ def _way(
 
     def bears(pose: Floats) -> float:
         stance["x"], stance["y"], stance["angle"] = pose
-        return load_capacity(task.robot, ways.legs, places, stance, course.elbows[step - 1])
+        return load_capacity(ways.robot, ways.legs, places, stance, course.elbows[step - 1])
 
     pose = course.pose(step)
     least = min(0.0, bears(pose)) - WEAKER

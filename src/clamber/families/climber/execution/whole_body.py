@@ -19,7 +19,7 @@ from ..control.limb_chain import chain_of_limb, legs_of
 from ..control.planar_limb import LIMB_TASK
 from ..control.virtual_potential import repel_limbs
 from ..robot.robot import LimbedRobot
-from .body_gains import USUAL, BodyGains, records_of
+from .body_gains import USUAL, BodyGains, inertia_over_usual, records_of
 from .body_schemes import SCHEMES
 from .limb_task import LimbTask
 from .postures import postures
@@ -65,7 +65,8 @@ class WholeBody:
         self.chains = [chain_of_limb(robot, limb.name) for limb in robot.limbs]
         self.legs = legs_of(robot, self.chains)
         unit = LawSettings(law=gains.law, kp=1.0, kd=0.0, joint_kd=1.0, feed_gravity=False)
-        free = LawSettings(law=gains.law, kp=gains.limb_kp, kd=gains.limb_kd, feed_gravity=False)
+        heavy = inertia_over_usual(robot)
+        free = LawSettings(law=gains.law, kp=heavy * gains.limb_kp, kd=heavy * gains.limb_kd, feed_gravity=False)
         self._pullers = [Controller(chain, unit, period=period) for chain in self.chains]
         self._reachers = [Controller(chain, free, period=period) for chain in self.chains]
         self._aim = still_aim((0.0, 0.0))
@@ -112,7 +113,7 @@ class WholeBody:
             place_speeds=self._place_speeds, grabs=self._grabs,
             play=self.play, sure=self.sure, carriers=self._carriers, handed=self._handed,
             pulls=np.zeros((n, 2)), forces=np.zeros((n, 2)), old_pulls=np.zeros((n, 2)), old_forces=np.zeros((n, 2)),
-            cuts=self._cuts, drags=np.zeros((n, 2)), least=np.full(n, gains.alpha), pressed=np.zeros(n, np.int64),
+            cuts=self._cuts, drags=np.zeros((n, 2)), least=np.full(n, heavy * gains.alpha), pressed=np.zeros(n, np.int64),
             loads=np.zeros((n, 2)), loads_now=np.zeros(2), lag=self._lag, wanted=np.zeros(3), fed=np.zeros(3),
             aim=self._aim, states=self._states, felt=np.zeros((1, AXES)), torques=self.torques,
         )  # fmt: skip

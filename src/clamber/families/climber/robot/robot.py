@@ -221,6 +221,31 @@ class LimbedRobot(Pictured):
         """Whether all limbs end in grippers."""
         return all(limb.end.kind == "gripper" for limb in self.limbs)
 
+    def at_weight(self, weight: float) -> "LimbedRobot":
+        """This robot with all masses, forces and torques as many times larger as makes it weigh so much [N]: it moves the same."""
+        if weight == self.weight:
+            return self
+        times = weight / self.weight
+        limbs = tuple(
+            replace(
+                limb,
+                shoulder=_times(limb.shoulder, times),
+                elbow=_times(limb.elbow, times),
+                end=replace(limb.end, strength=None if limb.end.strength is None else times * limb.end.strength),
+                link_masses=(times * limb.link_masses[0], times * limb.link_masses[1]),
+            )
+            for limb in self.limbs
+        )
+        motor, bears = self.motor, self.motor.continuous_torque
+        motor = replace(
+            motor,
+            torque_limit=times * motor.torque_limit,
+            torque_constant=times * motor.torque_constant,
+            resistance=times * motor.resistance,
+            continuous_torque=None if bears is None else times * bears,
+        )
+        return replace(self, weight=weight, limbs=limbs, motor=motor)
+
     def outline(self) -> Floats:
         """Corners of the body without its margin: the convex hull of the ports, anticlockwise, body frame, shape (n, 2) [m]."""
         return _hull((limb.port_x, limb.port_y) for limb in self.limbs)
@@ -283,6 +308,18 @@ def _check(robot: LimbedRobot, document: Document) -> None:
     link_weight = sum(sum(limb.link_masses) for limb in robot.limbs) * GRAVITY
     if not link_weight < robot.weight:
         raise document.problem("weight", f"must be more than the links weigh together ({link_weight:.3g} N)")
+
+
+def _times(joint: Joint, times: float) -> Joint:
+    """A joint with so many times its inertia, friction and torque, as fast as before."""
+    limit = joint.torque_limit
+    return replace(
+        joint,
+        inertia=times * joint.inertia,
+        damping=times * joint.damping,
+        friction=times * joint.friction,
+        torque_limit=None if limit is None else times * limit,
+    )
 
 
 def _hull(points: Iterable[tuple[float, float]]) -> Floats:

@@ -110,7 +110,8 @@ def run_body(
         if entry.first_limb:
             count_from(body, holding[0])
         body.aim[:], body.aim_speed[:] = scenario.aims[k], scenario.speeds[k]
-        plant.actuate(body.command(), climber.grips)
+        body.command()
+        climber.drive()
         plant.push((float(scenario.pushes[k, 0]), float(scenario.pushes[k, 1])))
         plant.step()
         truth = plant.truth()

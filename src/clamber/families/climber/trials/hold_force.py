@@ -192,8 +192,9 @@ class _Press:
         self._more = float(np.clip(self._more, -wanted, wanted))
         aside = ALONG_WALL * (self._place[1] - body.tip(i)[1])
         push = np.array((wanted + PROPORTIONAL * lack + self._more, aside))
+        push /= climber.load
         task.force = push + _friction_by_motion(leg, body.q[i], body.qd[i], body.pose[2], push)
-        task.tug, task.damping = np.array((wanted, 0.0)), DAMPING
+        task.tug, task.damping = np.array((wanted / climber.load, 0.0)), DAMPING
         climber.tick()
         if self._keeping:
             self._rows.append((climber.time, self._plant.true_press(), self._plant.truth().pose, body.aim.copy()))

@@ -11,6 +11,7 @@ from ....errors import StartError
 from ....planning.beam import plan_beam
 from ....planning.problem.plan import Plan
 from ..control.limb_chain import legs_of
+from ..execution.body_gains import USUAL_WEIGHT
 from ..execution.contact_capacity import load_capacity
 from ..execution.executable_plan import ExecutablePlan, lay_course
 from ..execution.remaining_task import task_from_here
@@ -41,7 +42,7 @@ def without(margins: PlanningMargins, plan: Plan, step: int) -> PlanningMargins:
 def doubtful_grabs(course: ExecutablePlan) -> list[int]:
     """Steps of grabs that are doubtful on paper: the limb finds no way there, or hooks and motors lack much until the next one."""
     steps = set(grabs_without_way(course, MAP_ERROR))
-    robot, places = course.task.robot, course.task.world.positions()
+    robot, places = course.task.robot.at_weight(USUAL_WEIGHT), course.task.world.positions()
     legs = legs_of(robot)
     for step, stance in enumerate(course.stances):
         if load_capacity(robot, legs, places, stance, course.elbows[step]) < -LACK:
