@@ -42,13 +42,14 @@ from clamber.families.spatial.sim.spatial_plant import SpatialSim
 from clamber.families.spatial.statics.judging import lift_between
 from clamber.families.spatial.trials.law_trials import first_steps as short_plan
 from clamber.families.spatial.trials.law_trials import try_law
-from clamber.families.spatial.trials.planning import RESERVES, careful
+from clamber.families.spatial.trials.planning import RESERVES, careful, roomy
 from clamber.families.spatial.trials.run_plan import SpatialRun, body_of, run_plan
 from clamber.planning.auto import plan_auto
 from clamber.planning.planners import plan_task
 from clamber.planning.problem.codes import MOVE, NEAREST, pack
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.problems import plan_family
+from clamber.planning.problem.verdict import check_plan
 from clamber.tasks.library import load_task, task_names
 from clamber.trials.dynamics import RunEvents, RunRequest
 from clamber.types import Floats
@@ -567,6 +568,24 @@ def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_t
         f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for"
         for reserve in RESERVES
     ]
+
+
+def test_a_plan_along_a_surface_is_rehearsed_and_stays_where_it_goes_well() -> None:
+    """This one passes 3 mm from the tube."""
+    task, notes = load_task("scene-tube"), []
+    plan = DYNAMICS.plan(task, RunRequest(), RunEvents(note=notes.append))
+    assert [note for note in notes if note.startswith("the plan comes nearer")]
+    assert not [note for note in notes if "rehearsal" in note]
+    assert check_plan(task, plan).ok and not check_plan(roomy(task), plan).ok
+
+
+@pytest.mark.slow
+def test_no_leg_catches_the_edge_of_a_corner() -> None:
+    """The first plan leads a leg along the edge of this world's steel, and the leg catches it in the rehearsal."""
+    task, notes = load_task("corners-magnet", ["world.seed=10"]), []
+    run: SpatialRun = run_plan(task, DYNAMICS.plan(task, RunRequest(), RunEvents(note=notes.append)))
+    assert [note for note in notes if "rehearsal" in note]
+    assert run.done, run.reason
 
 
 def links_that_touch(task: SpatialTask, stance: Standing) -> int:

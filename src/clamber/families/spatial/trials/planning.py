@@ -2,16 +2,19 @@
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import Final
+from typing import Any, Final
 
-from ....errors import SpecError
+from ....errors import SpecError, StartError
+from ....interrupts import passed_on
 from ....planning.auto import choose
 from ....planning.planners import accepts
 from ....planning.problem.plan import Plan
 from ....planning.problem.problems import pose_problem
+from ....planning.problem.verdict import check_plan
 from ....trials.dynamics import Conditions, NoPlanError, RunEvents, search_to_run
 from ..execution.carrying import Replan
 from ..planning.task import SpatialTask
+from .run_plan import run_plan
 
 RESERVES: Final = {0.3: (1,), 0.24: (8,), 0.2: (1, 4), 0.15: (1,)}
 """Of all strengths and torques that plans keep which are made to be carried out, the first that can be had [-] -> how many times as wide
@@ -20,6 +23,8 @@ as usual it is looked for, one after the other.
 Holds that bear a fifth less under a robot that weighs a tenth more take 27 %, under one that weighs a twentieth more 24 %; holds alone
 take 20 %. Where little room is left a wide search finds what several times as long a narrow one does not.
 """
+ROOM: Final = 0.005
+"""From surfaces, of links and base: plans that come nearer are rehearsed, as what carries them out is some millimetres off [m]."""
 
 
 def careful(task: SpatialTask, reserve: float = max(RESERVES)) -> SpatialTask:
@@ -27,11 +32,17 @@ def careful(task: SpatialTask, reserve: float = max(RESERVES)) -> SpatialTask:
     return replace(task, rules=replace(task.rules, need=max(task.rules.need, reserve)))
 
 
-def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
+def roomy(task: SpatialTask) -> SpatialTask:
+    """The task with `ROOM` to keep from surfaces."""
+    return replace(task, rules=replace(task.rules, clearance=max(task.rules.clearance, ROOM)))
+
+
+def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: int, *, rehearsed: bool = True) -> Plan:
     """A plan with more in reserve than the task asks for; where there is none, one as the task asks for.
 
     More in reserve is looked for by the planner that `auto` tries first alone, and briefly: that there is none is known only when all have
-    searched as long as they may, which took minutes.
+    searched as long as they may, which took minutes. Where a plan is to be `rehearsed`, comes nearer to a surface than `ROOM` and to no
+    end, one that keeps `ROOM` is looked for, with as much in reserve and then with less; where there is none, the first is taken.
 
     Raises:
         NoPlanError: If there is none of that kind either.
@@ -39,20 +50,46 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
     """
     problem = pose_problem(task).problem
     quick = choose(problem).planners[0] if asked.planner == "auto" else asked.planner
+    caught: Plan | None = None
+
+    def found(wary: SpatialTask, **options: Any) -> Plan | None:
+        with suppress(SpecError):  # the start itself has less in reserve, or is nearer
+            result = search_to_run(wary, quick, asked, events, seed, **options)
+            return result.plan if result.has_plan else None
+        return None
+
     for reserve, widths in RESERVES.items():
         if reserve <= task.rules.need:
             break
+        wary = careful(task, reserve)
         for wider in widths if accepts(quick, "width") else (0,):
-            with suppress(SpecError):  # the start itself has less in reserve
-                options = {"width": wider * problem.beam.width} if wider else {}
-                result = search_to_run(careful(task, reserve), quick, asked, events, seed, **options)
-                if result.has_plan:
-                    return result.plan
-        events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
+            options = {"width": wider * problem.beam.width} if wider else {}
+            plan = found(wary if caught is None else roomy(wary), **options)
+            if plan is not None and caught is None and rehearsed and not _goes_well(task, plan, events):
+                caught, plan = plan, found(roomy(wary), **options)
+            if plan is not None:
+                return plan
+        if caught is None:
+            events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
+    if caught is not None:
+        return caught
     result = search_to_run(task, asked.planner, asked, events, seed)
     if result.has_plan:
         return result.plan
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+
+
+def _goes_well(task: SpatialTask, plan: Plan, events: RunEvents) -> bool:
+    """Whether a plan keeps `ROOM` from surfaces all along, or comes to its end in a rehearsal without noise."""
+    with suppress(SpecError, StartError):  # the start itself is nearer: rehearsed, too
+        if check_plan(roomy(task), plan).ok:
+            return True
+    events.note(f"the plan comes nearer than {1e3 * ROOM:g} mm to a surface, and is rehearsed")
+    with passed_on():  # Ctrl-C ends the command, not this run alone
+        if run_plan(task, plan).done:
+            return True
+    events.note("it did not come to its end in the rehearsal; one that keeps its distance is looked for")
+    return False
 
 
 def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
@@ -63,7 +100,7 @@ def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
     def replan(task: SpatialTask) -> Plan | None:
         events.note("planning again from where the robot is, as a hold cannot be had")
         try:
-            return found_plan(task, asked, events, seed)
+            return found_plan(task, asked, events, seed, rehearsed=False)
         except (NoPlanError, SpecError):  # none, or where it stands now breaks a rule of its plans
             return None
 
