@@ -51,11 +51,11 @@ def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path, limbs
     code, out, _ = run("check", "plan.json", "--json")
     verdict = json.loads(out)
     assert code == 0 and verdict["kind"] == "plan" and verdict["reached"]
-    # too weak for the control of climbers; four limbs and more climb in space, three are refused, and nothing moves
-    assert not verdict["to_run"]["ok"] and "gives 5 N m" in verdict["to_run"]["objection"]
+    # four limbs and more are none for the control of climbers and climb in space; three are tried, without a promise
+    assert verdict["to_run"]["ok"] == (limbs == "3")
     code, out, err = run("run", "climb.toml", "-q")
     if limbs == "3":
-        assert (code, out) == (1, "") and "gives 5 N m" in err and "nothing has moved" in err
+        assert code == 1 and "not climbed" in out
     else:
         assert code == 0 and "carried out: 'climb'" in out, err
 

@@ -10,7 +10,7 @@ from clamber.families.climber.control.backlash import follow_play, pull_torques,
 from clamber.families.climber.control.body import command_contact_forces, drag_tips
 from clamber.families.climber.control.body_estimate import ENCODER, estimate_body
 from clamber.families.climber.control.hook_forces import MOST_CUTS
-from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS
+from clamber.families.climber.execution.body_gains import LIMITS, MAPPINGS, inertia_over_usual
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.whole_body import HANDING_OVER, LOAD_TIME, WholeBody
 from clamber.types import Floats
@@ -71,13 +71,14 @@ class PlainBody(WholeBody):
         return np.array((math.cos(angle), math.sin(angle)))
 
     def command(self) -> Floats:
-        gains, n = self.gains, self.n
+        gains, n, heavy = self.gains, self.n, inertia_over_usual(self.robot)
         arms, drags = self._holds - self.pose[:2], np.zeros((n, 2))
         if gains.mapping == "wrench":
             wanted = np.array(gains.stiffness) * (self.aim - self.pose)
-            drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, gains.damping, drags)
+            drag_tips(self.tip_speeds, self.pose[2], arms, self.aim_speed, heavy * gains.damping, drags)
         else:
             wanted = np.array(gains.kp) * (self.aim - self.pose) + np.array(gains.kd) * (self.aim_speed - self.twist)
+            wanted *= heavy
         fed = gains.weight_fed * np.array((0.0, self.robot.weight, weight_moment(self.legs, self.q, self.pose[2])))
         for i, task in enumerate(self.tasks):
             if task.mode == "contact_push":
@@ -88,7 +89,7 @@ class PlainBody(WholeBody):
             pulls, forces = np.zeros((n, 2)), np.zeros((n, 2))
             command_contact_forces(
                 (self.legs, self.q, self.pose, arms), held, (wanted, fed, MAPPINGS[gains.mapping], LIMITS[gains.limit]),
-                np.full(n, gains.alpha), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
+                np.full(n, heavy * gains.alpha), drags, np.zeros((MOST_CUTS, 2)), pulls, forces,
             )  # fmt: skip
             return pulls, forces
 
@@ -129,8 +130,10 @@ class PlainBody(WholeBody):
             elif task.mode == "swing_cartesian":
                 self._reach(i, task)
             else:
-                torques[:] = self.chains[i].joints["share"] * (
-                    gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i])
+                torques[:] = (
+                    self.chains[i].joints["share"]
+                    * heavy
+                    * (gains.joint_kp * (task.angles - self.q[i]) + gains.joint_kd * (task.rates - self.qd[i]))
                 )
                 if task.mode == "hang":
                     torques += task.loads

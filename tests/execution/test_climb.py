@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from collections.abc import Callable
 from types import SimpleNamespace
 from typing import cast
 
@@ -130,7 +131,7 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
         ticks, farthest = ticks + 1, max(farthest, float(np.abs(task.angles - q[0]).max()))
 
     body = hanging_body(task, q)
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, holding=list)
+    climber = usual_climber(body, tick)
     came = follow(cast(Climber, climber), 0, np.array(((0.0, 0.0), (0.8, -0.4))))
     assert came == (stop > 0.8)
     assert farthest < LAG[1] + 0.01
@@ -138,6 +139,12 @@ def test_a_limb_that_something_holds_on_its_way_stays_there_and_pulls_no_more(st
     np.testing.assert_allclose(task.angles, (0.8, -0.4) if came else q[0], atol=1e-12)
     np.testing.assert_array_equal(task.rates, 0.0)
     np.testing.assert_array_equal(task.accelerations, 0.0)
+
+
+def usual_climber(body: SimpleNamespace, tick: Callable[[], None]) -> SimpleNamespace:
+    """What goes along a way with motors as fast as usual."""
+    plant = SimpleNamespace(period=0.005)
+    return SimpleNamespace(body=body, plant=plant, tick=tick, holding=list, swiftness=1.0, agility=1.0)
 
 
 def hanging_body(task: LimbTask, q: Floats) -> SimpleNamespace:
@@ -161,7 +168,7 @@ def test_no_joint_is_sped_up_beyond_what_its_motor_and_the_body_bear(seed: int) 
         rates.append(task.rates.copy())
 
     body = hanging_body(task, q)
-    climber = SimpleNamespace(body=body, plant=SimpleNamespace(period=0.005), tick=tick, holding=list)
+    climber = usual_climber(body, tick)
     assert follow(cast(Climber, climber), 0, way)
     # the change of pace at a corner comes to it
     assert np.abs(np.diff(rates, axis=0)).max() / 0.005 < 1.6 * SURGE
