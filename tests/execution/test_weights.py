@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from clamber.benchmarks.climb_speed import two_rungs
+from clamber.control.chain import ChainError
 from clamber.families.climber.robot.robot import LimbedRobot, body_inertia
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
 
@@ -66,3 +67,10 @@ def test_a_robot_at_another_weight_accelerates_as_before_and_comes_back() -> Non
         assert heavy.no_load_speed_of(ours) == robot.no_load_speed_of(theirs)
     back = heavy.at_weight(robot.weight)
     assert back.limbs[0].link_masses == pytest.approx(robot.limbs[0].link_masses)
+
+
+def test_a_robot_without_rotors_is_refused_by_name() -> None:
+    robot = two_rungs()[0].robot
+    bare = replace(robot.limbs[0], elbow=replace(robot.limbs[0].elbow, inertia=0.0))
+    with pytest.raises(ChainError, match=r"right elbow's share by inertia = 0\.0"):
+        climbed(replace(robot, limbs=(bare, *robot.limbs[1:])))

@@ -88,10 +88,10 @@ class Climber:
         self.load = robot.weight / self.robot.weight
         """How many times larger the plant's forces and torques are than those that control works with."""
         robot = self.robot
+        self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.swiftness = min(map(robot.no_load_speed_of, robot.joints)) / USUAL_SPEED
         self.agility = min(robot.torque_limit_of(one) / one.inertia for one in robot.joints) / USUAL_AGILITY
         """Of its joints, over that of the robot on which control's speeds were chosen [-]."""
-        self.body = WholeBody(robot, period=plant.period, gains=gains, backlash=backlash)
         self.fall, self.slip = FallWatch(self.body), SlipWatch(self.body)
         self.watched = watched
         self.monitor = ReadingMonitor(channels_of(robot), plant.period)
