@@ -160,6 +160,7 @@ def test_a_joint_that_gives_way_to_a_full_command_is_told() -> None:
     )
     assert YIELDS <= (ticks + 1) * PERIOD <= 2.0 * YIELDS
     assert watch.findings[-1].kind == "overpowered"
+    assert watch.findings[-1].why.endswith(f"for {YIELDS:.2f} s and turns against it")
 
 
 def test_a_joint_that_a_full_command_does_not_move_is_told_later() -> None:
@@ -174,6 +175,7 @@ def test_a_joint_that_a_full_command_does_not_move_is_told_later() -> None:
     watch, ticks = ticks_to_an_end(still, commands=driven)
     assert FULLY_DRIVEN <= (ticks + 1) * PERIOD <= FULLY_DRIVEN + 0.1
     assert watch.findings[-1].kind == "overpowered"
+    assert watch.findings[-1].why.endswith(f"for {FULLY_DRIVEN:.2f} s and does not follow")
     _, never = ticks_to_an_end(still, commands=lambda k: driven(k) * (k * PERIOD % 1.0 < 0.4))
     assert never == -1
 

@@ -263,5 +263,8 @@ class ReadingMonitor:
         overcome = (memory[DRIVEN] >= self._patience[1]) | (memory[YIELDING] >= self._patience[2])
         for c in np.flatnonzero(believed & overcome):
             self.bad.add(int(c))
-            why = f"it has been driven with {self.commands[c]:.3g} for {memory[DRIVEN, c] * self.period:.2f} s and does not follow"
+            ticks, does = memory[YIELDING, c], "turns against it"
+            if memory[DRIVEN, c] >= self._patience[1]:
+                ticks, does = memory[DRIVEN, c], "does not follow"
+            why = f"it has been driven with {self.commands[c]:.3g} for {ticks * self.period:.2f} s and {does}"
             self.fail("overpowered", self.channels[c].name, f"motor dead, weak or overloaded: {why}")

@@ -42,7 +42,8 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
 
     More in reserve is looked for by the planner that `auto` tries first alone, and briefly: that there is none is known only when all have
     searched as long as they may, which took minutes. Where a plan is to be `rehearsed`, comes nearer to a surface than `ROOM` and to no
-    end, one that keeps `ROOM` is looked for, with as much in reserve and then with less; where there is none, the first is taken.
+    end, ones that keep `ROOM` are looked for and rehearsed, with as much in reserve and then with less; where none comes to its end,
+    the first is taken.
 
     Raises:
         NoPlanError: If there is none of that kind either.
@@ -50,11 +51,11 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
     """
     problem = pose_problem(task).problem
     quick = choose(problem).planners[0] if asked.planner == "auto" else asked.planner
-    caught: Plan | None = None
+    failed: list[Plan] = []  # in a rehearsal
 
     def found(wary: SpatialTask, **options: Any) -> Plan | None:
         with suppress(SpecError):  # the start itself has less in reserve, or is nearer
-            result = search_to_run(wary, quick, asked, events, seed, **options)
+            result = search_to_run(roomy(wary) if failed else wary, quick, asked, events, seed, **options)
             return result.plan if result.has_plan else None
         return None
 
@@ -64,15 +65,19 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
         wary = careful(task, reserve)
         for wider in widths if accepts(quick, "width") else (0,):
             options = {"width": wider * problem.beam.width} if wider else {}
-            plan = found(wary if caught is None else roomy(wary), **options)
-            if plan is not None and caught is None and rehearsed and not _goes_well(task, plan, events):
-                caught, plan = plan, found(roomy(wary), **options)
-            if plan is not None:
+            plan = found(wary, **options)
+            if plan is not None and not failed and rehearsed and not _goes_well(task, plan, events):
+                failed.append(plan)
+                plan = found(wary, **options)
+            if plan is None or any(plan.actions == other.actions for other in failed):
+                continue
+            if not failed or _comes_to_its_end(task, plan, events):
                 return plan
-        if caught is None:
+            failed.append(plan)
+        if not failed:
             events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
-    if caught is not None:
-        return caught
+    if failed:
+        return failed[0]
     result = search_to_run(task, asked.planner, asked, events, seed)
     if result.has_plan:
         return result.plan
@@ -80,16 +85,22 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
 
 
 def _goes_well(task: SpatialTask, plan: Plan, events: RunEvents) -> bool:
-    """Whether a plan keeps `ROOM` from surfaces all along, or comes to its end in a rehearsal without noise."""
+    """Whether a plan keeps `ROOM` from surfaces all along, or comes to its end in a rehearsal."""
     with suppress(SpecError, StartError):  # the start itself is nearer: rehearsed, too
         if check_plan(roomy(task), plan).ok:
             return True
-    events.note(f"the plan comes nearer than {1e3 * ROOM:g} mm to a surface, and is rehearsed")
+    events.note(f"the plan comes nearer than {1e3 * ROOM:g} mm to a surface")
+    return _comes_to_its_end(task, plan, events)
+
+
+def _comes_to_its_end(task: SpatialTask, plan: Plan, events: RunEvents) -> bool:
+    """Whether a plan does so in a rehearsal without noise."""
+    events.note("the plan is rehearsed")
     with passed_on():  # Ctrl-C ends the command, not this run alone
-        if run_plan(task, plan).done:
-            return True
-    events.note("it did not come to its end in the rehearsal; one that keeps its distance is looked for")
-    return False
+        run = run_plan(task, plan)
+    if not run.done:
+        events.note(f"it does not come to its end ({run.reason}); another is looked for")
+    return run.done
 
 
 def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
