@@ -21,7 +21,17 @@ from clamber.families.spatial.execution.carrying import Carrying
 from clamber.families.spatial.execution.course import BodyMotion, Course, Regrab, Standing
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.limbed_body import LimbedBody
-from clamber.families.spatial.execution.motions import SPEED, joints_along, regrab, rest, scaled, share_loads, take
+from clamber.families.spatial.execution.motions import (
+    SPEED,
+    joints_along,
+    move_body,
+    regrab,
+    rest,
+    scaled,
+    share_loads,
+    take,
+)
+from clamber.families.spatial.execution.plant import Pose
 from clamber.families.spatial.execution.references import (
     BodyPath,
     TimeScaling,
@@ -264,6 +274,68 @@ def test_a_foot_that_is_to_bear_nothing_stays_on_its_hold(name: str) -> None:
     rest(body, 1.0)
     felt = np.linalg.norm(body.sensed.wrenches[:, :3], axis=1)
     assert felt.min() > body.pace.touch
+
+
+def centre_of_mass(plant: SpatialSim) -> Floats:
+    """Of all that MuJoCo moves, less where the base is [m], shape (3,)."""
+    truth: Floats = plant._data.subtree_com[0] - plant.truth().pose.position
+    return truth
+
+
+@pytest.mark.parametrize(
+    "name", ["stones-quadruped", "rubble-hexapod", "wall-gripper", "ceiling-gripper", "corners-magnet"]
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_tips_tell_where_the_centre_of_mass_is_and_the_body_makes_up_for_it(name: str, seed: int) -> None:
+    """Links that weigh up to 30 % more or less; MuJoCo's own centre of mass is the truth. Along the weight it makes no difference."""
+    task, plan = first_steps(name, grabs=0)
+    masses = 1.0 + np.random.default_rng(seed).uniform(-0.3, 0.3, 1 + int(task.robot.chains.n_joints.sum()))
+    start = Course.of(task, plan).start
+    believed, true = (
+        standing_body(task, start, deviations=replace(Deviations.none(task.robot, task.world), masses=weights))
+        for weights in (np.ones_like(masses), masses)
+    )
+    down = task.world.gravity / np.linalg.norm(task.world.gravity)
+    for body in (believed, true):
+        rest(body, 3.0)
+    off = centre_of_mass(true.plant) - centre_of_mass(believed.plant)
+    off -= (off @ down) * down
+    assert np.linalg.norm(off) > 1e-3
+    assert np.linalg.norm(believed.lean) < 1e-3
+    told = start.pose.rotation @ true.lean
+    assert np.linalg.norm(told - off) < 0.2 * np.linalg.norm(off) + 5e-4
+    made_up = true.over_holds(start) - believed.over_holds(start)
+    made_up -= (made_up @ down) * down
+    assert np.linalg.norm(made_up + off) < 0.2 * np.linalg.norm(off) + 1e-3
+
+
+def test_a_body_stays_over_its_holds_where_the_map_moves_it() -> None:
+    """A touch that corrects where the robot is moves its feet, too: it fell as it went after its place in the world."""
+    task, plan = first_steps("stones-quadruped", grabs=0)
+    motion = Course.of(task, plan).motions[0]
+    assert isinstance(motion, BodyMotion)
+    ends = []
+    for off in (np.zeros(3), np.array((0.02, -0.03, 0.01))):
+        body = standing_body(task, motion.start)
+        rest(body, 0.1)
+        update = body.belief.update
+
+        def moved(*given: Any, update: Any = update, body: LimbedBody = body, off: Floats = off) -> Any:
+            update(*given)
+            body.belief.filter.believed.position[:] += off
+            body.belief.filter.believed.places[:] += off
+            body.belief.update = update  # type: ignore[method-assign]
+            body.law.state.position[:] += off
+            return Pose(np.eye(3), off)
+
+        body.belief.update = moved  # type: ignore[method-assign]
+        rest(body, 0.5)
+        assert body.off < 2e-3
+        move_body(body, motion)
+        truth = body.plant.truth()
+        assert truth is not None
+        ends.append(truth.pose.position)
+    assert np.linalg.norm(ends[1] - ends[0]) < 1e-3
 
 
 @pytest.mark.parametrize("name", FOOTED)

@@ -7,6 +7,7 @@ import pytest
 from standing import Standing
 
 from clamber.control.whole_body.tree import State
+from clamber.families.spatial.control.base_filter import BaseFilter, FilterSettings
 from clamber.families.spatial.control.believed_tree import believed_tree
 from clamber.families.spatial.execution.estimated_base import EstimatedBase
 from clamber.families.spatial.execution.plant import Pose
@@ -100,3 +101,16 @@ def test_touches_of_what_centres_itself_tell_the_place_along_the_surface(name: s
         robot.held[limb] = taken[limb]
         robot.sway(0.05)
     assert least <= np.linalg.norm(robot.state.position - robot.plant.truth().pose.position) <= most
+
+
+@pytest.mark.parametrize(("directed", "drifts"), [(0, False), (1, True)])
+def test_a_step_turns_the_robot_unnoticed_only_by_holds_that_keep_their_direction(directed: int, drifts: bool) -> None:
+    """What feet added to what is not known of the heading let touches move the robot by centimetres that it had not gone."""
+    filter = BaseFilter(
+        4, (-1.0, 0.0025), np.full(4, directed, np.int32), np.array((0.0, 0.0, -9.81)), FilterSettings()
+    )
+    filter.begin(np.eye(3), np.zeros(3))
+    before = filter.believed.covariance[:9, :9].copy()
+    for limb in range(4):
+        filter.hold_on(limb, np.array((0.2, 0.1, -0.3)), np.eye(3), 1e-6)
+    assert (filter.believed.covariance[:9, :9] != before).any() == drifts

@@ -51,7 +51,8 @@ class FilterSettings:
     encoder: float = 0.1 * DEGREE
     """Of what an encoder tells, with half of the play of its gear [rad]."""
     drift: float = 2.0
-    """Of what a step moves and turns the robot unnoticed, over what the encoders of one limb tell of its tip [-]."""
+    """Of what a step of a limb whose hold keeps its direction moves and turns the robot unnoticed, over what its encoders tell of its tip
+    [-]: play of its gears turns the robot with it. About other holds tips turn, and the robot does not turn with them."""
     place: float = 2e-3
     """Of where the robot is at the start [m]."""
     turn: float = 0.3 * DEGREE
@@ -192,7 +193,8 @@ class BaseFilter:
     def hold_on(self, limb: int, tip: Floats, axes: Floats, variance: float) -> None:
         """A limb's tip stays where it is from now on."""
         s = self._settings
-        add_drift(self.believed, s.drift**2 * variance, (s.drift * s.encoder) ** 2, self._row)
+        if self.believed.turn_at[limb] >= 0:
+            add_drift(self.believed, s.drift**2 * variance, (s.drift * s.encoder) ** 2, self._row)
         begin_contact(self.believed, limb, tip, axes, variance, self._turned)
 
     def let_go(self, limb: int) -> None:

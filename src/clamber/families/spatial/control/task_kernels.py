@@ -3,6 +3,7 @@
 import math
 
 from ....compiled import inlined, kernel, opened
+from ....control.kinematics import column, cross, dot, keep_three, less, plus, scaled, three
 from ....control.whole_body.programme import ARM, BASE_RATE, HOLDS, INTEGRAL, SWING_RATE, SWINGS
 from ....control.whole_body.programme_kernels import turn_between
 from ....control.whole_body.tree import FREE
@@ -22,6 +23,12 @@ REACTION = 0.0075
 """From a reading to the torque that answers it [s]: 5 ms of delay, as motors on a bus have, and a control period."""
 STEADY = 0.4 * math.pi
 """Of a joint's damping, how many times heavier what it moves is than its rotor, and `REACTION`; gears rattle from pi / 2 on [-]."""
+LEARNT = 0.5
+"""Time constant with which the robot learns by its tips where its centre of mass is [s]."""
+FELT = 0.25
+"""Square of what all tips feel, over the weight's, from which on they tell of balance [-]."""
+FARTHEST = 0.05
+"""From where it believes it to be, of an arm, that it may be [-]: several times what links make that weigh a tenth more or less."""
 LEAST_RATE = 7.0
 """At which errors of a swinging tip die away whatever its gears [1/s]: more slowly, what is left of their friction would keep it."""
 
@@ -198,6 +205,12 @@ def largest_share(torques, limits):
 
 
 @inlined
+def turned(axes, vector):
+    """A vector in the frame of some axes, in the world frame."""
+    return dot(axes[0], vector), dot(axes[1], vector), dot(axes[2], vector)
+
+
+@inlined
 def add_up(integral, at, error, share, arm):
     """Add a share of an error vector, less its slack, to three components of an integral from `at` on."""
     length = math.sqrt(error[0] ** 2 + error[1] ** 2 + error[2] ** 2)
@@ -262,6 +275,44 @@ def steady_errors(state, aims, rest):
 
 
 @kernel
+def feel_balance(sensed, aims, state, limbs, rest):
+    """Learn by what tips feel where the centre of mass truly is, while the body is to stay where it is; along the weight nobody feels it.
+
+    At rest the tips' moments about the base's origin are those of all that they bear at the centre of mass.
+
+    Args:
+        sensed: The readings.
+        aims: The law's.
+        state: Of the robot.
+        limbs: `limbed_body.Limbs`; `lean` is changed.
+        rest: As in `steady_errors`.
+    """
+    _, dynamics, gains, period = rest[:4]
+    for a in range(6):
+        if aims.velocity[a] != 0.0:
+            return
+    force, moment = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+    for limb in range(limbs.holds.size):
+        wrench, axes = sensed.wrenches[limb], dynamics.tip_turn[limb]
+        push = turned(axes, three(wrench, 0))
+        force = plus(force, push)
+        lever = less(three(dynamics.tip[limb], 0), three(state.position, 0))
+        moment = plus(moment, plus(turned(axes, three(wrench, 3)), cross(lever, push)))
+    weight, square = three(dynamics.weight, 0), dot(force, force)
+    if square < FELT * dot(weight, weight):  # too little to tell, or none, in free fall
+        return
+    believed = turned(state.rotation, three(dynamics.weight, 3))  # the base's speeds of turning are along its own axes
+    missed = less(moment, scaled(dot(force, weight) / dot(weight, weight), believed))
+    away = scaled(1.0 / square, cross(force, missed))
+    lean, share, most = limbs.lean, period / LEARNT, FARTHEST * gains[ARM]
+    for a in range(3):
+        lean[a] += share * (dot(column(state.rotation, a), away) - lean[a])
+    length = math.sqrt(dot(lean, lean))
+    if length > most:
+        keep_three(lean, 0, scaled(most / length, three(lean, 0)))
+
+
+@kernel
 def bear_loads(handle, touch, fading, stand, tick):
     """Work out the dynamics, count which tips feel something, write what contacts are to bear in their own frames, let errors add up.
 
@@ -294,6 +345,7 @@ def bear_loads(handle, touch, fading, stand, tick):
             aims.wrench[limb, axis], aims.wrench[limb, 3 + axis] = force, moment
         if pushing[limb] and limb != fading:
             aims.wrench[limb, 0] = max(aims.wrench[limb, 0], stand)
+    feel_balance(sensed, aims, state, limbs, rest)
     steady_errors(state, aims, rest)
     off = 0.0
     for a in range(3):

@@ -16,7 +16,7 @@ class Belief(Protocol):
     def begin(self, pose: Pose, sensed: SpatialSensed) -> None:
         """Begin at rest at a pose that the robot was told, with the first reading of its sensors."""
 
-    def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
+    def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> Pose | None:
         """Bring a state up to date.
 
         Args:
@@ -24,4 +24,8 @@ class Belief(Protocol):
             holds: Index of the hold that each limb holds on to or stands on, as believed, -1: none; shape (limbs,). The same array at each
                 tick, as `state` is: to look at others costs time.
             state: Written.
+
+        Returns:
+            The turn and then the shift, world frame, by which a hold that was taken has corrected where the body is believed to be; None:
+            none was taken or left.
         """

@@ -72,17 +72,21 @@ class EstimatedBase:
         self._body.own.speed[:] = self._body.pushed[:] = 0.0
         self._number = int(sensed.number[0])
 
-    def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
+    def update(self, sensed: SpatialSensed, holds: Ints, state: State) -> Pose | None:
         """See `Belief`."""
         before, self._number = self._number, sensed.number.item(0)
         given = self._given
         if given is None or not (given[0] is sensed and given[1] is holds and given[2] is state):
             self._take_hold(sensed, holds, state)
         if self._believe((self._number - before) * self._period, self._late):
-            return
+            return None
+        self._tell(self._late)
+        rotation, position = state.rotation.copy(), state.position.copy()
         for limb in np.flatnonzero(holds != self._on).tolist():
             self._change(limb, int(holds[limb]))
         self._tell(self._late)
+        turn = state.rotation @ rotation.T
+        return Pose(turn, state.position - turn @ position)
 
     def _take_hold(self, sensed: SpatialSensed, holds: Ints, state: State) -> None:
         """Have kernels work on the arrays that there are."""

@@ -55,6 +55,8 @@ class Limbs(NamedTuple):
     """Ticks for which a limb that is to hold on has not."""
     sought: Floats
     """How deep feet in the air have felt for their ground [m]; NaN: they are not in the air."""
+    lean: Floats
+    """How far the centre of mass is from where it is believed to be, as tips have told, base frame [m], shape (3,)."""
 
 
 class LostHoldError(Exception):
@@ -114,8 +116,9 @@ class LimbedBody:
             met=np.full(limbs, -math.inf),
             open=np.zeros(limbs, np.int64),
             sought=np.full(limbs, math.nan),
+            lean=np.zeros(3),
         )
-        self.holds, self.loads = of.holds, of.loads
+        self.holds, self.loads, self.lean = of.holds, of.loads, of.lean
         """As `Limbs` has them."""
         self._felt, self._met, self._open, self._sought = of.felt, of.met, of.open, of.sought
         self.peaks: Floats = np.zeros(2)
@@ -321,6 +324,16 @@ class LimbedBody:
         pointed = inward if self.robot.contacts[limb].aligned else None
         self.swing(limb, (aim, velocity, np.zeros(3)), pointed)
 
+    def over_holds(self, at: Standing) -> Floats:
+        """Where the base is to be so that the robot's weight lies over its tips as in a stance of its plan [m], shape (3,).
+
+        Tips stand beside where the map has their holds, and links weigh more or less than their file says; balance goes with both.
+        """
+        on = np.flatnonzero(self.holds >= 0)
+        away = self.tips[on] - self.world.places[self.holds[on]]
+        place: Floats = at.pose.position + away.mean(axis=0) - at.pose.rotation @ self.lean
+        return place
+
     def stop(self) -> None:
         """From now on the body is to stay where it is."""
         aims, state = self.law.aims, self.law.state
@@ -341,4 +354,8 @@ class LimbedBody:
         if self.handle.held[0] is not self.sensed:
             self._take_hold()
         self._find_resting()
-        self.belief.update(self.sensed, self._limbs.resting, self.law.state)
+        moved = self.belief.update(self.sensed, self._limbs.resting, self.law.state)
+        if moved is not None:  # in the world, not on its holds: it is to stay where it is on them
+            aims = self.law.aims
+            aims.rotation[:] = moved.rotation @ aims.rotation
+            aims.position[:] = moved.rotation @ aims.position + moved.position

@@ -96,14 +96,15 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
 
 
 def move_body(body: LimbedBody, motion: BodyMotion) -> None:
-    """The body to the motion's last stance from where it is, loads passing to those of that."""
+    """The body to where it is to be over its holds, as it stands on them, loads passing to those of the motion's last stance."""
     end, aims, pace = motion.way[-1], body.law.aims, body.pace
-    way = float(np.linalg.norm(end.pose.position - aims.position))
+    place = body.over_holds(end)
+    way = float(np.linalg.norm(place - aims.position))
     turned = float(np.linalg.norm(rotation_vector(end.pose.rotation @ aims.rotation.T)))
     seconds = seconds_for(max(way, turned * pace.size), pace.body)
     quick = float(np.max(np.abs(end.joints - aims.posture) / body.law.limits.speed, initial=0.0))
     seconds = max(seconds, PEAK_SPEED * quick / SPEED, 4.0 * body.plant.period)
-    path = BodyPath.between(aims.position, aims.rotation, end.pose.position, end.pose.rotation, seconds)
+    path = BodyPath.between(aims.position, aims.rotation, place, end.pose.rotation, seconds)
     aim = ready(aim_body, body.handle, path.handle, changing(body, end.loads, end.joints), 0.0)
     for k in range(1, math.ceil(seconds / body.plant.period) + 1):
         aim(k * body.plant.period)
