@@ -299,10 +299,11 @@ def feel_balance(sensed, aims, state, limbs, rest):
         lever = less(three(dynamics.tip[limb], 0), three(state.position, 0))
         moment = plus(moment, plus(turned(axes, three(wrench, 3)), cross(lever, push)))
     weight, square = three(dynamics.weight, 0), dot(force, force)
-    if square < FELT * dot(weight, weight):  # too little to tell, or none, in free fall
+    heavy = dot(weight, weight)
+    if heavy == 0.0 or square < FELT * heavy:
         return
     believed = turned(state.rotation, three(dynamics.weight, 3))  # the base's speeds of turning are along its own axes
-    missed = less(moment, scaled(dot(force, weight) / dot(weight, weight), believed))
+    missed = less(moment, scaled(dot(force, weight) / heavy, believed))
     away = scaled(1.0 / square, cross(force, missed))
     lean, share, most = limbs.lean, period / LEARNT, FARTHEST * gains[ARM]
     for a in range(3):
