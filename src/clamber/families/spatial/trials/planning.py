@@ -12,9 +12,10 @@ from ....planning.problem.plan import Plan
 from ....planning.problem.problems import pose_problem
 from ....planning.problem.verdict import check_plan
 from ....trials.dynamics import Conditions, NoPlanError, RunEvents, search_to_run
+from ..control.laws import USUAL
 from ..execution.carrying import Replan
 from ..planning.task import SpatialTask
-from .run_plan import run_plan
+from .run_plan import Control, run_plan
 
 RESERVES: Final = {0.3: (1,), 0.24: (8,), 0.2: (1, 4), 0.15: (1,)}
 """Of all strengths and torques that plans keep which are made to be carried out, the first that can be had [-] -> how many times as wide
@@ -66,12 +67,12 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
         for wider in widths if accepts(quick, "width") else (0,):
             options = {"width": wider * problem.beam.width} if wider else {}
             plan = found(wary, **options)
-            if plan is not None and not failed and rehearsed and not _goes_well(task, plan, events):
+            if plan is not None and not failed and rehearsed and not _goes_well(task, plan, asked, events):
                 failed.append(plan)
                 plan = found(wary, **options)
             if plan is None or any(plan.actions == other.actions for other in failed):
                 continue
-            if not failed or _comes_to_its_end(task, plan, events):
+            if not failed or _comes_to_its_end(task, plan, asked, events):
                 return plan
             failed.append(plan)
         if not failed:
@@ -84,20 +85,20 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
     raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
 
 
-def _goes_well(task: SpatialTask, plan: Plan, events: RunEvents) -> bool:
+def _goes_well(task: SpatialTask, plan: Plan, asked: Conditions, events: RunEvents) -> bool:
     """Whether a plan keeps `ROOM` from surfaces all along, or comes to its end in a rehearsal."""
     with suppress(SpecError, StartError):  # the start itself is nearer: rehearsed, too
         if check_plan(roomy(task), plan).ok:
             return True
     events.note(f"the plan comes nearer than {1e3 * ROOM:g} mm to a surface")
-    return _comes_to_its_end(task, plan, events)
+    return _comes_to_its_end(task, plan, asked, events)
 
 
-def _comes_to_its_end(task: SpatialTask, plan: Plan, events: RunEvents) -> bool:
+def _comes_to_its_end(task: SpatialTask, plan: Plan, asked: Conditions, events: RunEvents) -> bool:
     """Whether a plan does so in a rehearsal without noise."""
     events.note("the plan is rehearsed")
     with passed_on():  # Ctrl-C ends the command, not this run alone
-        run = run_plan(task, plan)
+        run = run_plan(task, plan, control=Control(law=asked.law or USUAL))
     if not run.done:
         events.note(f"it does not come to its end ({run.reason}); another is looked for")
     return run.done
