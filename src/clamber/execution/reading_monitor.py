@@ -94,7 +94,7 @@ class ReadingMonitor:
         self.values, self.speeds, self.commands = np.zeros(n), np.zeros(n), np.zeros(n)
         """Readings and speeds, to be filled in before `see` and believed afterwards; commands since the reading before, shape (n,)."""
         self.free = np.ones(n, np.bool_)
-        """Whether what moves a reading was free to move under those commands: the joints of a limb that holds on are not, shape (n,)."""
+        """Whether what moves a reading was free to move meanwhile: joints of a limb that holds on are if it does alone, shape (n,)."""
         self.silent = np.zeros(n, np.bool_)
         """Whether a reading stays the same now whatever its motor does; of a joint that is not free, that alone is no fault, shape (n,)."""
         self._bounds, self._memory = np.zeros((BOUNDS, n)), np.zeros((MEMORY, n))

@@ -244,11 +244,11 @@ def _apart(angle, tips, a, b):
 
 @kernel
 def see_signs(handle):
-    """Which of the signs there are, from `UNHELD` on, their sum; and which limbs move freely.
+    """Which of the signs there are, from `UNHELD` on, their sum; and which limbs are held at one end alone, if at all.
 
     Args:
         handle: Holds `BodyWork`; the sum of the tips' forces, shape (2,) [N]; 1 for limbs that end in jaws, and for jaws that are closed
-            about something, shape (n,) each; and 1 for joints of limbs that move freely, filled, shape (n, 2).
+            about something, shape (n,) each; and 1 for joints of limbs that are not held at both ends, filled, shape (n, 2).
     """
     work, force, jawed, gripped, free = opened(handle)
     weight = work.gains[0].weight
@@ -257,7 +257,7 @@ def see_signs(handle):
     last = -1
     for i in range(work.legs.size):
         mode = work.jobs[i].mode
-        free[i] = mode in (SWING_CARTESIAN, SWING_JOINT)
+        free[i] = mode in (SWING_CARTESIAN, SWING_JOINT, HANG)
         if mode in (STANCE, HANG):
             last = i
             if first < 0:
