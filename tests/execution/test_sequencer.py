@@ -53,12 +53,13 @@ class Toy(Performer[int, ToyReport, int]):
     Args:
         tries: What becomes of the tries of each action, one after another; `ok` from then on.
         plans: How many new plans there are; each leads on with the next action.
+        spares: How many faults it can do without what has failed.
     """
 
     goes_on = frozenset({"ok", "stalled"})
 
-    def __init__(self, *tries: list[str], plans: int = 0) -> None:
-        self._tries, self._plans = [list(one) for one in tries], plans
+    def __init__(self, *tries: list[str], plans: int = 0, spares: int = 0) -> None:
+        self._tries, self._plans, self._spares = [list(one) for one in tries], plans, spares
         self._at, self._time = -1, 0.0
         self.before = self.ended = self.braced = 0
         self.report = ToyReport()
@@ -99,7 +100,8 @@ class Toy(Performer[int, ToyReport, int]):
 
     def plan_again(self, action: int, outcome: Outcome) -> bool:
         self._plans -= outcome == "missed"
-        return outcome == "missed" and self._plans >= 0
+        self._spares -= outcome == "fault"
+        return (outcome == "missed" and self._plans >= 0) or (outcome == "fault" and self._spares >= 0)
 
     def stop_safely(self) -> Ending:
         self.braced += 1
@@ -292,3 +294,18 @@ def test_a_robot_of_either_kind_ends_in_the_same_words_with_a_trace_up_to_that_t
         np.testing.assert_array_equal(getattr(back, name), getattr(trace, name))
     assert back.notes is not None
     assert back.notes["reason"] == report.reason
+
+
+def test_after_a_fault_a_robot_that_can_goes_on_without_what_has_failed() -> None:
+    toy = Toy(["fault"], [], ["fault"], [], spares=1)
+    report = Sequencer(toy).run()
+    assert outcomes(toy) == ["fault", "ok", "fault"]
+    assert (report.done, report.ending, toy.braced) == (False, "held", 1)
+    assert report.reason == "fault: said fault"
+    assert Sequencer(Toy(["fault"], [], spares=1)).run().done
+
+
+def test_it_does_so_and_plans_again_three_times_in_a_run_at_most() -> None:
+    toy = Toy(["fault"], ["missed"], ["fault"], ["fault"], plans=9, spares=9)
+    assert Sequencer(toy).run().ending == "held"
+    assert outcomes(toy) == ["fault", "missed", "fault", "fault"]

@@ -223,6 +223,10 @@ class ReadingMonitor:
         self.note(kind, where, why)
         raise FaultError(f"{where}: {kind}: {why}" if where else f"{kind}: {why}")
 
+    def leave_out(self, c: int) -> None:
+        """Ask no more of a channel than that it is a number."""
+        self._bounds[:, c] = math.inf
+
     def tell_silent(self, c: int) -> None:
         """End the run, as a channel's reading stays the same whatever its motor does.
 

@@ -86,7 +86,7 @@ class Performer(ABC, Generic[ActionT, ReportT, *ToldTs]):
         """Write into the report what became of an action; also of the one in which the run ends."""
 
     def plan_again(self, action: ActionT, outcome: Outcome) -> bool:
-        """After an action that was not done: make a plan that leads on without it; whether there is one, whose actions are the next."""
+        """After an action that was not done, or a fault in it: whether there is a plan without what failed, whose actions are the next."""
         return False
 
     def done(self, action: ActionT) -> None:
@@ -172,9 +172,7 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
             attempt = self._act(action)
             if attempt.outcome in performer.goes_on:
                 performer.done(action)
-            elif self._replans < MOST_REPLANS and performer.plan_again(action, attempt.outcome):
-                self._replans += 1
-            else:
+            elif attempt.outcome != FaultError.word and not self._goes_on(action, attempt.outcome):
                 return f"{performer.name(action)}: {attempt.outcome}: {attempt.reason}"
         return ""
 
@@ -185,11 +183,18 @@ class Sequencer(Generic[ActionT, ReportT, *ToldTs]):
             self._surely(action, attempt)
         except RunEndedError as end:
             attempt.outcome, attempt.reason = end.word, str(end)
-            if not isinstance(end, RefusedError):
+            if not isinstance(end, RefusedError) and not (
+                isinstance(end, FaultError) and self._goes_on(action, end.word)
+            ):
                 raise
         finally:
             self.performer.record(action, attempt)
         return attempt
+
+    def _goes_on(self, action: ActionT, outcome: Outcome) -> bool:
+        """Whether the robot goes on by another plan."""
+        self._replans += 1
+        return self._replans <= MOST_REPLANS and self.performer.plan_again(action, outcome)
 
     def _surely(self, action: ActionT, attempt: Attempt) -> None:
         """Carry out an action, once more after each fall in it that the robot recovers from."""

@@ -74,8 +74,7 @@ def learn_macros(
     settings = replace(settings, search=replace(settings.search, beam=0, windows=0))
     problem = pose_problem(task, threads=threads).problem
     macros: dict[tuple[int, ...], Macro] = {}
-    plans = 0
-    evaluations = 0
+    plans = evaluations = 0
     goal = problem.way_left(problem.start)
     for seed in seeds:
         result = plan_genetic(

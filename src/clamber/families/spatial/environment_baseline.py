@@ -68,6 +68,9 @@ class EnvironmentPlant:
         """See `SpatialPlant`: with the next action."""
         self._action[len(self.env.torques) + limb] = 1.0 if close else -1.0
 
+    def brake(self, joint: int) -> None:
+        """See `SpatialPlant`: nothing to do, as nothing fails in an environment."""
+
     def pause(self) -> None:
         """See `SpatialPlant`: nothing to do, as time stands still meanwhile."""
 

@@ -80,7 +80,7 @@ def move_body(climber: Climber, pose: Floats, *, drawn: tuple[int, Floats, Float
     sags, presses = math.dist(body.aim[:2], body.pose[:2]), _presses(climber)
     while gone < length + rise:
         behind = math.dist(body.aim.tolist()[:2], body.pose.tolist()[:2])
-        wished = ramp(behind - sags, BEHIND, (1.0, 0.0)) if drawn is None and waited < WAITING else 1.0
+        wished = float(np.interp(behind - sags, BEHIND, (1.0, 0.0))) if drawn is None and waited < WAITING else 1.0
         pace = min(wished, pace + period / REGAINING)
         waited += (1.0 - pace) * period
         stuck = behind > HELD_BACK[0] or (pace < STANDS[0] and _is_jammed(climber, presses))
@@ -137,13 +137,6 @@ def _go_back(climber: Climber, start: Floats, ticks: int) -> None:
         body.aim[:] = start - (1.0 - k / ticks) * change
         body.aim_speed[:] = change / (ticks * climber.plant.period)
         climber.tick()
-
-
-def ramp(x: float, across: tuple[float, float], values: tuple[float, float]) -> float:
-    """The first of two values before a stretch, the second after it, and between both on it."""
-    if across[0] < x < across[1]:
-        return (values[1] - values[0]) / (across[1] - across[0]) * (x - across[0]) + values[0]
-    return values[0] if x <= across[0] else values[1]
 
 
 def eased(t: float, length: float, rise: float) -> tuple[float, float]:

@@ -41,6 +41,8 @@ class NewPlan(Jsonable):
     missed: list[int]
     """Numbers of the holds that it does without."""
     actions: Count
+    locked: list[str] = field(default_factory=list)
+    """Joints that have failed, so that it does without their limbs."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,9 +7,10 @@ method, damped so that no step leaves the limits (Nesterov and Nemirovskii 1994)
 """
 
 import math
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
+from scipy.optimize import linprog
 
 from ....control.whole_body.tree import FREE, Dynamics, State
 from ....control.whole_body.tree_kernels import work_out
@@ -20,6 +21,7 @@ from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .plant import Pose
 
+Contacts: TypeAlias = tuple[list[int], list[tuple[Floats, Floats]], list[tuple[Floats, Floats, Floats]], list[slice]]
 KEPT: Final = 0.9
 """What every contact has left of its limits stays this part of what the planner's programme leaves of the one that binds [-]."""
 STEPS: Final = 40
@@ -76,23 +78,10 @@ class LoadCentre:
             holds: Index of the hold of each limb that bears, -1: it does not; shape (limbs,).
             loads: World frame, shape (limbs, 6).
         """
-        state, dynamics = self._state, self._dynamics
-        state.rotation[:], state.position[:], state.joints[:] = pose.rotation, pose.position, joints
-        work_out(self._tree, state, dynamics)
-        bearing = [limb for limb, hold in enumerate(holds.tolist()) if hold >= 0]
-        turns, bounds, parts, at = [], [], [], 0
-        weight = GRAVITY * self._robot.chains.total_mass
-        for limb in bearing:
-            turn = dynamics.tip_turn[limb]
-            frame, rows, limits = contact_rows(self._robot, self._world, limb, int(holds[limb]), turn, 1.0)
-            size = self._robot.contacts[limb].components
-            turns.append((np.kron(np.eye(size // 3), frame), dynamics.jacobian[limb, :size]))
-            parts.append(slice(at, at + size))
-            scale = np.array([row.slack[0] * weight + row.slack[1] for row in self._robot.contacts[limb].rows])
-            bounds.append((rows[:, :size], limits, scale))
-            at += size
+        bearing, turns, bounds, parts = self._contacts(pose, joints, holds, 1.0)
         if not bearing:
             return loads
+        dynamics, at = self._dynamics, parts[-1].stop
         start = np.concatenate(
             [turn @ loads[limb, : len(turn)] for limb, (turn, _) in zip(bearing, turns, strict=True)]
         )
@@ -111,6 +100,51 @@ class LoadCentre:
         for limb, part, (turn, _) in zip(bearing, parts, turns, strict=True):
             found[limb, : len(turn)] = turn.T @ (start[part] + moved[part])
         return found
+
+    def bears(self, pose: Pose, joints: Floats, holds: Ints, share: float) -> bool:
+        """Whether contacts that are relied on for that share of friction and pull [-] can hold the robot at rest; see `__call__`."""
+        bearing, turns, bounds, parts = self._contacts(pose, joints, holds, share)
+        if not bearing:
+            return False
+        dynamics, n = self._dynamics, parts[-1].stop
+        levers = np.concatenate([turn @ jacobian for turn, jacobian in turns])
+        weight = dynamics.weight
+        whole = np.zeros((sum(len(limits) for _, limits, _ in bounds), n))
+        at = 0
+        for part, (rows, limits, _) in zip(parts, bounds, strict=True):
+            whole[at : at + len(limits), part] = rows
+            at += len(limits)
+        solved = linprog(
+            np.zeros(n),
+            np.concatenate((whole, -levers[:, FREE:].T, levers[:, FREE:].T)),
+            np.concatenate(
+                (*(bound[1] for bound in bounds), self._torque - weight[FREE:], self._torque + weight[FREE:])
+            ),
+            levers[:, :FREE].T,
+            weight[:FREE],
+            bounds=(None, None),
+        )
+        return bool(solved.success)
+
+    def _contacts(self, pose: Pose, joints: Floats, holds: Ints, share: float) -> Contacts:
+        """Limbs that bear; of each its contact's axes and Jacobian; rows, limits and scale of its polytope; its part of all wrenches."""
+        state, dynamics = self._state, self._dynamics
+        state.rotation[:], state.position[:], state.joints[:] = pose.rotation, pose.position, joints
+        work_out(self._tree, state, dynamics)
+        bearing = [limb for limb, hold in enumerate(holds.tolist()) if hold >= 0]
+        turns, bounds, parts, at = [], [], [], 0
+        weight = GRAVITY * self._robot.chains.total_mass
+        for limb in bearing:
+            turn = dynamics.tip_turn[limb]
+            frame, rows, limits = contact_rows(self._robot, self._world, limb, int(holds[limb]), turn, share)
+            size = self._robot.contacts[limb].components
+            axes: Floats = np.kron(np.eye(size // 3), frame)
+            turns.append((axes, dynamics.jacobian[limb, :size]))
+            parts.append(slice(at, at + size))
+            scale = np.array([row.slack[0] * weight + row.slack[1] for row in self._robot.contacts[limb].rows])
+            bounds.append((rows[:, :size], limits, scale))
+            at += size
+        return bearing, turns, bounds, parts
 
 
 def centre(rows: Floats, limits: Floats, balance: Floats) -> Floats:

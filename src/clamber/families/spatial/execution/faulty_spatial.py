@@ -135,6 +135,10 @@ class FaultySpatial(PlantLayer[SpatialPlant, SpatialTruth | None]):
         if not (self._injector.on and self._injector.fault.target == "link"):
             self._grip(limb, close)
 
+    def brake(self, joint: int) -> None:
+        """See `SpatialPlant`."""
+        self.plant.brake(joint)
+
     def _grip(self, limb: int, close: bool) -> None:
         self._gripped[limb] = close
         self.plant.grip(limb, close)

@@ -18,9 +18,9 @@ from ..robot.contacts import MOST_ROWS
 from ..robot.robot import SpatialRobot
 from ..world.world import World
 from .belief import Belief
-from .centred_loads import contact_rows
+from .centred_loads import LoadCentre, contact_rows
 from .course import Standing
-from .plant import SpatialPlant, SpatialSensed
+from .plant import Pose, SpatialPlant, SpatialSensed
 from .sensor_watch import Guard, SensorWatch
 from .settings import Pace, usual_gains
 
@@ -65,11 +65,12 @@ class LostHoldError(Exception):
     Args:
         limb: Which.
         hold: Index of the hold that it held on to.
+        gone: Whether the hold is not to be taken again.
     """
 
-    def __init__(self, limb: int, hold: int) -> None:
+    def __init__(self, limb: int, hold: int, *, gone: bool = False) -> None:
         super().__init__(limb, hold)
-        self.limb, self.hold = limb, hold
+        self.limb, self.hold, self.gone = limb, hold, gone
 
 
 class LimbedBody:
@@ -133,6 +134,8 @@ class LimbedBody:
         self.ticks = 0
         self._pressed = np.zeros((limbs, 3))
         """Normals that limbs press against, shape (limbs, 3)."""
+        self.locked: dict[int, float] = {}
+        """Joint that is locked -> where [rad] or [m]."""
         self._presses = False
         self._push = np.zeros(limbs)
         self._aimed = np.zeros((limbs, 3))
@@ -240,11 +243,15 @@ class LimbedBody:
         """
         law = self.law
         self.sensed = self.plant.sense()
+        for joint, place in self.locked.items():
+            self.sensed.joints[:, joint], self.sensed.torques[joint] = (place, 0.0), 0.0
         self.watch.see(self.sensed, self.holds)
         self._believe()
         if self._guard is not None:
             self._hold_posture(self._guard)
             return
+        if self.watch.sliding is not None:
+            self._catch_slide(self.watch.sliding)
         self.off = self._bear_loads(self.pace.touch, self.fading, self.pace.stand, self.ticks)
         self._press(law.tick())
         self.plant.actuate(law.torques)
@@ -255,6 +262,38 @@ class LimbedBody:
             raise FallenError(f"the body is {1e3 * self.off:.0f} mm from where it is to be")
         if open_ones:
             self._feel_holds()
+
+    def _catch_slide(self, limb: int) -> None:
+        """A foot that has slid is put down anew if the others can bear the robot meanwhile; or it stands where it is now.
+
+        Raises:
+            LostHoldError: If it is to be put down anew, elsewhere from the second time on.
+        """
+        watch, state, hold = self.watch, self.law.state, int(self.holds[limb])
+        watch.sliding, others = None, self.holds.copy()
+        others[limb] = -1
+        pose = Pose(state.rotation, state.position)
+        if not LoadCentre(self.robot, self.world).bears(pose, state.joints, others, NESTED):
+            self.hold_on(limb, hold)
+            watch.forget_place(limb)
+            return
+        watch.slid[limb] += 1
+        self.let_go(limb)
+        raise LostHoldError(limb, hold, gone=bool(watch.slid[limb] > 1))
+
+    def lock(self, joint: int) -> None:
+        """From now on the brake of a joint that has failed holds it, what its sensors say is not heard, and the robot stays as it is.
+
+        The tick in which that was noticed comes to its end.
+        """
+        self.plant.brake(joint)
+        self.plant.step()
+        self.ticks += 1
+        self.watch.leave_out(joint)
+        limits, place = self.law.limits, float(self.law.state.joints[joint])
+        self.locked[joint] = limits.lower[joint] = limits.upper[joint] = place
+        self.stop()
+        self.law.aims.tip[:], self.law.aims.tip_velocity[:], self.law.aims.tip_acceleration[:] = self.tips, 0.0, 0.0
 
     def brace(self) -> None:
         """From now on the robot holds its posture, joint by joint: something of it has failed."""

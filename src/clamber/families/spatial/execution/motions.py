@@ -35,6 +35,12 @@ SINGULAR: Final = 0.01
 LARGEST_STEP: Final = 0.3
 """Of a joint that turns an end effector, from one of these places to the next: near a posture in which it can't, it lags behind and catches
 up, as under the law [rad] or [m]."""
+FOLDED: Final = 0.25
+"""How far a limb that is left out is lifted off what it stood on, where its joints let it, of the longest limb's length [-]."""
+FOLDING: Final = 2000
+"""Postures that are tried for that."""
+PARTS: Final = (0.05, 0.1, 0.2, 0.4, 0.6, 0.8)
+"""Of the way there, at which it is looked at [-]."""
 LEAST_SPEED: Final = 0.1
 """Of a joint's largest speed that it may always have, however near its limit it ends [-]."""
 LOW: Final = 0.8
@@ -93,6 +99,57 @@ def share_loads(body: LimbedBody, loads: Floats, limb: int | None, *, fading: bo
         body.fading = -1
         if limb is not None and not fading:
             aims.cap[limb] = math.inf
+
+
+def folded(body: LimbedBody, limb: int, normal: Floats) -> tuple[Floats, float]:
+    """A posture in which a limb is off what it stood on, by those of its joints that are not locked: that with the least way there.
+
+    Args:
+        body: The robot.
+        limb: Which; it begins as it is believed to be.
+        normal: Out of the surface, shape (3,).
+
+    Returns:
+        Of all joints, shape (n,), and how far up the tip comes [m]; on its straight way there it comes no lower than it is.
+    """
+    law, mine = body.law, slice(*body.joints_of(limb))
+    at, work = State.of(law.tree), Dynamics.of(law.tree)
+    at.rotation[:], at.position[:] = law.state.rotation, law.state.position
+    here = law.state.joints.copy()
+
+    def height(joints: Floats) -> float:
+        at.joints[:] = joints
+        place_bodies(law.tree, at, work)
+        tip_motion(law.tree, at, work)
+        return float(work.tip[limb] @ normal)
+
+    moves = np.array([joint for joint in range(mine.start, mine.stop) if joint not in body.locked], np.intp)
+    lower, upper = law.limits.lower[moves], law.limits.upper[moves]
+    low, best = height(here), (0.0, 0.0, here)
+    for share in np.random.default_rng(0).random((FOLDING, len(moves))):
+        there = here.copy()
+        there[moves] = lower + share * (upper - lower)
+        up = min(height(there) - low, FOLDED * body.pace.size)
+        way = float(np.abs(there - here).max())
+        if (up, -way) > best[:2] and min(height(here + part * (there - here)) for part in PARTS) >= low:
+            best = up, -way, there
+    posture = law.aims.posture.copy()
+    posture[mine] = best[2][mine]
+    return posture, best[0]
+
+
+def fold(body: LimbedBody, limb: int, posture: Floats) -> None:
+    """A limb in the air goes to where it stays for the rest of the run."""
+    aims, mine = body.law.aims, slice(*body.joints_of(limb))
+    aims.velocity[:] = aims.acceleration[:] = 0.0
+    aims.posture[mine] = body.law.state.joints[mine]
+    quick = float(np.max(np.abs(posture - aims.posture) / body.law.limits.speed))
+    seconds = max(seconds_for(FOLDED * body.pace.size, body.pace.swing), PEAK_SPEED * quick / SPEED)
+    count = math.ceil(seconds / body.plant.period)
+    change = ready(change_aims, body.handle, changing(body, body.loads.copy(), posture), 0.0)
+    for k in range(1, count + 1):
+        change(quintic(k / count)[0])
+        body.tick()
 
 
 def move_body(body: LimbedBody, motion: BodyMotion) -> None:

@@ -106,6 +106,9 @@ class SpatialPlant(PausingPlant[SpatialSensed, SpatialTruth | None], Protocol):
         whose attempt has failed, stays off until it has been told to let go and to attach again.
         """
 
+    def brake(self, joint: int) -> None:
+        """Lock a joint by its brake, without power, until the next reset. It holds `brake` of the robot file."""
+
     def reset(self, pose: Pose, joints: Floats, held: Sequence[int] | Ints) -> None:
         """Put the robot somewhere at rest, at time 0.
 

@@ -1,15 +1,21 @@
-"""Another plan from where a robot in space stands, without holds that could not be had."""
+"""Another plan from where a robot in space stands, without holds that could not be had, and without limbs a joint of which is locked."""
 
+from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import replace
 
 import numpy as np
 
-from ..planning.task import SpatialTask, Start
+from ....files import Document
+from ....types import Floats
+from ..planning.task import SpatialTask, Start, build_task
+from ..robot.chains import Chains
 from .course import Course, Motion, Regrab, Standing
 
 
-def task_from_here(task: SpatialTask, at: Standing, missed: AbstractSet[int]) -> SpatialTask | None:
+def task_from_here(
+    task: SpatialTask, at: Standing, missed: AbstractSet[int], limbs: Sequence[str]
+) -> SpatialTask | None:
     """The rest of a task from a stance, in a world whose missed holds are not where they were.
 
     A plan names holds by their numbers, so a missed hold keeps its number and lies where its nearest neighbour lies (`without`).
@@ -18,6 +24,7 @@ def task_from_here(task: SpatialTask, at: Standing, missed: AbstractSet[int]) ->
         task: The task.
         at: Where the robot stands, on its lattice and level with its guide.
         missed: Indices of holds.
+        limbs: Names of those that `at` has, of which the task's robot may have fewer.
 
     Returns:
         None where a start can't say how the robot stands.
@@ -28,7 +35,7 @@ def task_from_here(task: SpatialTask, at: Standing, missed: AbstractSet[int]) ->
     holds = list(task.world.holds)
     for index, other in instead.items():
         holds[index] = replace(holds[other], number=index + 1)
-    names = task.robot.limb_names
+    held = dict(zip(limbs, at.holds.tolist(), strict=True))
     return replace(
         task,
         world=replace(task.world, holds=tuple(holds)),
@@ -37,7 +44,7 @@ def task_from_here(task: SpatialTask, at: Standing, missed: AbstractSet[int]) ->
             across=at.across,
             height=at.height,
             yaw=at.yaw,
-            holds={name: int(hold) + 1 for name, hold in zip(names, at.holds, strict=True)},
+            holds={name: held[name] + 1 for name in task.robot.limb_names},
         ),
         goals=task.goals[min(at.stage, len(task.goals) - 1) :],
     )
@@ -62,6 +69,63 @@ def without(course: Course, instead: dict[int, int]) -> Course:
         if isinstance(one, Regrab):
             hold = instead.get(one.hold, one.hold)
             return replace(one, hold=hold, before=standing(one.before), after=standing(one.after))
+        return replace(one, way=tuple(map(standing, one.way)))
+
+    return Course(standing(course.start), tuple(map(motion, course.motions)))
+
+
+def without_limb(task: SpatialTask, limb: str, places: Mapping[str, float]) -> SpatialTask | None:
+    """A task of a robot one of whose limbs is folded and no limb any more, but a part of the body.
+
+    Args:
+        task: The task.
+        limb: Name of the limb.
+        places: Joint of it -> where it stays [rad] or [m].
+
+    Returns:
+        None where no limb would be left.
+    """
+    robot = task.document["robot"]
+    limbs = [one for one in robot["limb"] if one["name"] != limb]
+    if not limbs:
+        return None
+    chains = task.robot.chains
+    index = chains.limb_names.index(limb)
+    units = ["m" if sliding else "rad" for sliding in chains.sliding[index]]
+    stays = {name: f"{places[name]!r} {unit}" for name, unit in zip(chains.joint_names[index], units, strict=False)}
+    half = [f"{float(length)!r} m" for length in chains.base_half]
+    changed = robot | {"limb": limbs, "trunk": robot.get("trunk", {}) | stays, "half": half}
+    start = {key: value for key, value in task.document["start"].items() if key != "holds"}
+    return build_task(Document(f"the rest of '{task.name}'", task.document | {"robot": changed, "start": start}))
+
+
+def widened(course: Course, chains: Chains, whole: Chains, posture: Floats) -> Course:
+    """A course of a robot some limbs of which are left out as one of the whole robot.
+
+    Args:
+        course: As planned.
+        chains: Of the robot that it was planned for.
+        whole: Of the whole robot.
+        posture: Of the whole robot, which those limbs keep, shape (n,).
+    """
+    limbs = [whole.limb_names.index(name) for name in chains.limb_names]
+    names = [name for limb in whole.joint_names for name in limb]
+    joints = [names.index(name) for limb in chains.joint_names for name in limb]
+
+    def loads(of: Floats) -> Floats:
+        all_of = np.zeros((len(whole.limb_names), of.shape[1]))
+        all_of[limbs] = of
+        return all_of
+
+    def standing(at: Standing) -> Standing:
+        holds, all_joints = np.full(len(whole.limb_names), -1, np.int32), posture.copy()
+        holds[limbs], all_joints[joints] = at.holds, at.joints
+        return replace(at, holds=holds, joints=all_joints, loads=loads(at.loads))
+
+    def motion(one: Motion) -> Motion:
+        if isinstance(one, Regrab):
+            before, after = standing(one.before), standing(one.after)
+            return replace(one, limb=limbs[one.limb], before=before, after=after, loads=loads(one.loads))
         return replace(one, way=tuple(map(standing, one.way)))
 
     return Course(standing(course.start), tuple(map(motion, course.motions)))

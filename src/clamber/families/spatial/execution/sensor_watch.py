@@ -60,6 +60,8 @@ RIGID: Final = 0.3
 """Part of it that the tips have come nearer or farther, below which it is the body that is believed to have turned [-]."""
 DISBELIEVED: Final = 0.5
 """Part of what the accelerometer says to accelerate the robot that the tips' forces do not bear out, above which it is not believed [-]."""
+SLIDES: Final = 2
+"""Times that a foot which has moved against the others has slid; after that a sensor drifts."""
 STILL: Final = 0.3
 """An encoder that has not changed by a count for so long is the one at fault where it can be [s]."""
 
@@ -151,6 +153,13 @@ class SensorWatch:
         looked = self._every * period
         self._share, self._patience = min(1.0, looked / SMOOTHED), math.ceil(FOR / looked)
         self._repeats, self._wandering = math.ceil(REPEATS / looked), math.ceil(WANDERING / looked / TIPS_EVERY)
+        self._names = robot.limb_names
+        self._slides = np.array([end.bears().capture == 0.0 for end in robot.ends])
+        """Limbs that stand by friction alone, shape (limbs,)."""
+        self.slid = np.zeros(limbs, np.int64)
+        """How often each has slid from its hold so far, shape (limbs,)."""
+        self.sliding: int | None = None
+        """The one that has slid at this tick; None: none."""
         self._rests = Rests(np.zeros(self._n), np.zeros(3), np.zeros(3))
         self._weak = self._off = self._wandered = 0
         self._ticks, self._newest, self._debt = 0, -1, 0
@@ -252,7 +261,20 @@ class SensorWatch:
         tips, room = self._law.dynamics.tip, self._room
         pairs = [(int(i), int(k)) for i, k in np.argwhere(room.came[..., 0] >= 0)]
         moved = [((i, k), room.lay[i, k], tips[i] - tips[k]) for i, k in pairs]
+        ways = np.zeros(self._law.tree.limbs)
+        for pair, then, now in moved:
+            ways[list(pair)] += np.linalg.norm(now - then)
+        limb = int(ways.argmax())
+        if self._slides[limb] and self.slid[limb] < SLIDES:
+            self.sliding, self._wandered = limb, 0
+            far = max(float(np.linalg.norm(now - then)) for pair, then, now in moved if limb in pair)
+            self.monitor.note("slide", self._names[limb], f"its tip has moved by {1e3 * far:.0f} mm against others")
+            return
         self._tell_wandered([one for one in moved if np.linalg.norm(one[2] - one[1]) > far])
+
+    def forget_place(self, limb: int) -> None:
+        """From now on a limb's tip is on its hold where it is now."""
+        self._room.came[limb], self._room.came[:, limb] = -1, -1
 
     def _tell_wandered(self, wandered: Sequence[Wandered]) -> None:
         """Which sensor explains best that tips have moved: the gyro if they have kept their distances, or an encoder."""
@@ -295,6 +317,17 @@ class SensorWatch:
         """
         self.monitor.bad.add(channel)
         self.monitor.fail(kind, self.monitor.channels[channel].name, why)
+
+    def failed_joint(self) -> int | None:
+        """The joint whose motor or encoder is not to be relied upon any more; None: what fails is no joint's."""
+        return next((c % self._n for c in sorted(self.monitor.bad) if c < 2 * self._n), None)
+
+    def leave_out(self, joint: int) -> None:
+        """From now on nothing is looked for in a joint, which is locked."""
+        for c in (joint, self._n + joint):
+            self.monitor.leave_out(c)
+            self.monitor.bad.discard(c)
+        self._limits[joint], self._weak = math.inf, 0
 
     def guard(self, sensed: SpatialSensed) -> "Guard":
         """What holds the posture of now, once the robot has stopped for a fault; from now on nothing more is told."""

@@ -91,6 +91,8 @@ class RobotSpec:
     decides to which side it gives way, and whether a hold is within reach at all."""
     limb_room: NonNegativeLength = 0.0
     """Links of different limbs keep so far apart [m]: holds are not where they are believed."""
+    brake: Annotated[float, Quantity("ratio", at_least=0.0)] = 0.0
+    """Torque with which the brake of a joint holds it, of its motor's largest [-]; 0: joints have none. It locks one that fails."""
     payload: Payload | None = None
     half: tuple[NonNegativeLength, NonNegativeLength, NonNegativeLength] | None = None
     """Half extents of the box that stands for the base's body [m]; None: as large as its shapes."""

@@ -107,6 +107,8 @@ class SpatialSim:
         )
         self.sensed: Final = self._sensing.sensed
         """What the sensors said last."""
+        self._frictions: Floats = model.dof_frictionloss.copy()
+        self._braked: list[int] = []
         self._pushes, self._next_push = true.deviations.pushes, 0
         self._pushed = data.xfrc_applied[model.body("base").id]
         self._sites = np.array([model.site(tip_name(name)).id for name in chains.limb_names])
@@ -122,6 +124,7 @@ class SpatialSim:
         mujoco, model, data = self._mujoco, self.model, self._data
         mujoco.mj_resetData(model, data)
         self._pushed[:] = 0.0
+        self._braked, model.dof_frictionloss[:] = [], self._frictions
         self._qpos[:3], self._qpos[3:7] = pose.position, quaternion(mujoco, pose.rotation)
         self._qpos[self._at] = joints
         if self.flaws.seed is not None:
@@ -170,6 +173,14 @@ class SpatialSim:
         if take_torques(torques[None], self._wanted) >= 0:
             k = int(np.argmin(np.isfinite(torques)))
             raise PlantError(f"torque of {self._names[k]}", float(torques[k]), "must be a finite number")
+        for joint in self._braked:
+            self._wanted[0, joint] = 0.0
+
+    def brake(self, joint: int) -> None:
+        """See `SpatialPlant`: dry friction on the motor's side."""
+        at, holds = self._speed_at[joint], self.robot.spec.brake * self.motors.torque[joint]
+        self.model.dof_frictionloss[at] = self._frictions[at] + holds
+        self._braked.append(joint)
 
     def grip(self, limb: int, close: bool) -> None:
         """See `SpatialPlant`."""

@@ -110,7 +110,7 @@ def replanner(asked: Conditions, events: RunEvents, seed: int) -> Replan | None:
         return None
 
     def replan(task: SpatialTask) -> Plan | None:
-        events.note("planning again from where the robot is, as a hold cannot be had")
+        events.note("planning again from where the robot is, without what cannot be had")
         try:
             return found_plan(task, asked, events, seed, rehearsed=False)
         except (NoPlanError, SpecError):  # none, or where it stands now breaks a rule of its plans
