@@ -138,7 +138,7 @@ class LoadCentre:
             turn = dynamics.tip_turn[limb]
             frame, rows, limits = contact_rows(self._robot, self._world, limb, int(holds[limb]), turn, share)
             size = self._robot.contacts[limb].components
-            axes: Floats = np.kron(np.eye(size // 3), frame)
+            axes = np.asarray(np.kron(np.eye(size // 3), frame), np.float64)
             turns.append((axes, dynamics.jacobian[limb, :size]))
             parts.append(slice(at, at + size))
             scale = np.array([row.slack[0] * weight + row.slack[1] for row in self._robot.contacts[limb].rows])
