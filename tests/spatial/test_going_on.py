@@ -146,7 +146,7 @@ def test_a_joint_whose_sensor_fails_is_locked_and_the_robot_goes_on_with_its_oth
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("kind", "where"), [("dead", "LM_2"), ("stuck", "RF_3")])
+@pytest.mark.parametrize(("kind", "where"), [("dead", "LR_2"), ("stuck", "RF_3")])
 def test_a_hexapod_goes_on_with_five_legs(kind: str, where: str) -> None:
     task, plan = planned("rubble-hexapod", "goal.along_min=0.4 m")
     run = carried(task, plan, fault_in(task, kind, where, 5.0))
@@ -193,7 +193,7 @@ def test_a_start_from_there_names_the_holds_of_the_limbs_that_are_left() -> None
 
 
 def test_a_foot_that_slides_off_an_icy_stone_no_longer_ends_the_walk() -> None:
-    """With a tenth of the friction of one stone the walk once ended as `drift`, in a fall."""
+    """With a twentieth of the friction of one stone the walk once ended as `drift`, in a fall."""
     task, plan = planned("stones-quadruped", "goal.along_min=0.8 m")
     taken = [one for one in Course.of(task, plan).motions if isinstance(one, Regrab)]
     slid = False

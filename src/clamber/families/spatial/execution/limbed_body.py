@@ -264,22 +264,21 @@ class LimbedBody:
             self._feel_holds()
 
     def _catch_slide(self, limb: int) -> None:
-        """A foot that has slid is put down anew if the others can bear the robot meanwhile; or it stands where it is now.
+        """A foot that has slid stands where it is now; one that slides again is lifted, if the others can bear the robot.
 
         Raises:
-            LostHoldError: If it is to be put down anew, elsewhere from the second time on.
+            LostHoldError: If it is lifted: it is to go elsewhere.
         """
         watch, state, hold = self.watch, self.law.state, int(self.holds[limb])
         watch.sliding, others = None, self.holds.copy()
-        others[limb] = -1
+        others[[limb] if self.fading < 0 else [limb, self.fading]] = -1
         pose = Pose(state.rotation, state.position)
-        if not LoadCentre(self.robot, self.world).bears(pose, state.joints, others, NESTED):
-            self.hold_on(limb, hold)
-            watch.forget_place(limb)
-            return
         watch.slid[limb] += 1
-        self.let_go(limb)
-        raise LostHoldError(limb, hold, gone=bool(watch.slid[limb] > 1))
+        if watch.slid[limb] > 1 and LoadCentre(self.robot, self.world).bears(pose, state.joints, others, NESTED):
+            self.let_go(limb)
+            raise LostHoldError(limb, hold, gone=True)
+        self.hold_on(limb, hold)
+        watch.forget_place(limb)
 
     def lock(self, joint: int) -> None:
         """From now on the brake of a joint that has failed holds it, what its sensors say is not heard, and the robot stays as it is.
