@@ -259,7 +259,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         names = [name for limb in body.robot.chains.joint_names for name in limb]
         told = NewPlan(len(self.report.motions), missed, len(plan.actions), [names[joint] for joint in body.locked])
         course = without(Course.of(task, plan, "new plan"), neighbours(of, self._missed))
-        return Another(of, widened(course, of.robot.chains, body.robot.chains, self._posture), told)
+        goals_left = replace(of, goals=task.goals)  # the stages of its stances are counted from here
+        return Another(goals_left, widened(course, of.robot.chains, body.robot.chains, self._posture), told)
 
     def _follow(self, another: "Another | None") -> bool:
         """Go on by another plan, if there is one."""

@@ -96,7 +96,8 @@ def without_limb(task: SpatialTask, limb: str, places: Mapping[str, float]) -> S
     half = [f"{float(length)!r} m" for length in chains.base_half]
     changed = robot | {"limb": limbs, "trunk": robot.get("trunk", {}) | stays, "half": half}
     start = {key: value for key, value in task.document["start"].items() if key != "holds"}
-    return build_task(Document(f"the rest of '{task.name}'", task.document | {"robot": changed, "start": start}))
+    built = build_task(Document(f"the rest of '{task.name}'", task.document | {"robot": changed, "start": start}))
+    return replace(built, goals=task.goals)
 
 
 def widened(course: Course, chains: Chains, whole: Chains, posture: Floats) -> Course:
