@@ -256,8 +256,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         if plan is None:
             return None
         missed = [hold + 1 for hold in sorted(self._missed)]
-        names = [name for limb in body.robot.chains.joint_names for name in limb]
-        told = NewPlan(len(self.report.motions), missed, len(plan.actions), [names[joint] for joint in body.locked])
+        locked = [body.named.joints[joint] for joint in body.locked]
+        told = NewPlan(len(self.report.motions), missed, len(plan.actions), locked)
         course = without(Course.of(task, plan, "new plan"), neighbours(of, self._missed))
         goals_left = replace(of, goals=task.goals)  # the stages of its stances are counted from here
         return Another(goals_left, widened(course, of.robot.chains, body.robot.chains, self._posture), told)

@@ -10,6 +10,7 @@ import math
 from typing import Final, TypeAlias
 
 import numpy as np
+from scipy.linalg import block_diag
 from scipy.optimize import linprog
 
 from ....control.whole_body.tree import FREE, Dynamics, State
@@ -106,17 +107,10 @@ class LoadCentre:
         bearing, turns, bounds, parts = self._contacts(pose, joints, holds, share)
         if not bearing:
             return False
-        dynamics, n = self._dynamics, parts[-1].stop
-        levers = np.concatenate([turn @ jacobian for turn, jacobian in turns])
-        weight = dynamics.weight
-        whole = np.zeros((sum(len(limits) for _, limits, _ in bounds), n))
-        at = 0
-        for part, (rows, limits, _) in zip(parts, bounds, strict=True):
-            whole[at : at + len(limits), part] = rows
-            at += len(limits)
+        levers, weight = np.concatenate([turn @ jacobian for turn, jacobian in turns]), self._dynamics.weight
         solved = linprog(
-            np.zeros(n),
-            np.concatenate((whole, -levers[:, FREE:].T, levers[:, FREE:].T)),
+            np.zeros(parts[-1].stop),
+            np.concatenate((block_diag(*(rows for rows, _, _ in bounds)), -levers[:, FREE:].T, levers[:, FREE:].T)),
             np.concatenate(
                 (*(bound[1] for bound in bounds), self._torque - weight[FREE:], self._torque + weight[FREE:])
             ),

@@ -11,6 +11,7 @@ from ....types import Floats
 from ..planning.task import SpatialTask, Start, build_task
 from ..robot.chains import Chains
 from .course import Course, Motion, Regrab, Standing
+from .run_trace import Named
 
 
 def task_from_here(
@@ -110,8 +111,7 @@ def widened(course: Course, chains: Chains, whole: Chains, posture: Floats) -> C
         posture: Of the whole robot, which those limbs keep, shape (n,).
     """
     limbs = [whole.limb_names.index(name) for name in chains.limb_names]
-    names = [name for limb in whole.joint_names for name in limb]
-    joints = [names.index(name) for limb in chains.joint_names for name in limb]
+    joints = [Named.of(whole).joints.index(name) for name in Named.of(chains).joints]
 
     def loads(of: Floats) -> Floats:
         all_of = np.zeros((len(whole.limb_names), of.shape[1]))
