@@ -8,6 +8,9 @@ import numpy.typing as npt
 Floats: TypeAlias = npt.NDArray[np.float64]
 """Any array of float64."""
 
+Complexes: TypeAlias = npt.NDArray[np.complex128]
+"""Any array of complex128."""
+
 Ints: TypeAlias = npt.NDArray[np.int32]
 """Any array of int32."""
 

@@ -152,13 +152,9 @@ def _cross(stand: BodyStand, target: Floats, gains: BodyGains) -> Crossing:
 
 def _gap(robot: LimbedRobot, i: int, q: Floats) -> float:
     """Between a limb's second link and the body [m]."""
-    limb = robot.limbs[i]
-    first = limb.port_angle + q[0]
-    second = first + q[1] + limb.hook_beta
-    elbow = np.array((limb.port_x, limb.port_y)) + limb.l1 * np.array((np.cos(first), np.sin(first)))
-    tip = elbow + limb.l2_effective * np.array((np.cos(second), np.sin(second)))
+    _, elbow, _, tip = robot.limbs[i].chain(q)
     return (
-        float(segment_polygon(elbow[0], elbow[1], tip[0], tip[1], robot.outline()))
+        float(segment_polygon(elbow.real, elbow.imag, tip.real, tip.imag, robot.outline()))
         - robot.link_radius
         - robot.body_margin
     )

@@ -18,10 +18,9 @@ from ..execution.climb_report import ActionReport
 from ..execution.climb_trace import ClimbTrace
 from ..execution.whole_body import WholeBody
 from ..planning.task import LimbedTask
-from ..robot.robot import Limb
 from ..trials.run_plan import ClimbRun
 from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges
-from .geometry import Posture, body_outline
+from .geometry import Posture, chained_pose
 
 PART_SECONDS: Final = 2.8
 """Of the climb that one part of an action shows: five frames of 0.07 s, so eight times as fast as it was [s]."""
@@ -68,7 +67,6 @@ class ClimbFilm(View[Moment]):
         self._poses = trace.believed if trace.true_pose is None else trace.true_pose
         self._angles = trace.angles if trace.true_angles is None else trace.true_angles
         self._index = {hold.number: k for k, hold in enumerate(task.world.holds)}
-        self._outline = body_outline(task.robot)
         some = np.unique(np.linspace(0, len(trace.time) - 1, SHOWN).astype(int))
         self.bounds = find_bounds(task, [self.posture(int(k)) for k in some])
         self.title, self.gauges, self.seconds = task.title or task.name, (torque_gauges(task),), float(trace.time[-1])
@@ -96,15 +94,10 @@ class ClimbFilm(View[Moment]):
         """The posture of a sample."""
         x, y, angle = (float(part) for part in self._poses[k])
         origin = complex(x, y)
-        chains = [_chain(limb, origin, angle, self._angles[k, i]) for i, limb in enumerate(self.task.robot.limbs)]
-        grips = [
-            angle + limb.port_angle + float(self._angles[k, i].sum()) + limb.end.angle
-            for i, limb in enumerate(self.task.robot.limbs)
-        ]
-        outline = origin + self._outline * cmath.exp(1j * angle)
+        limbs = zip(self.task.robot.limbs, self._angles[k], strict=True)
+        chains = origin + cmath.exp(1j * angle) * np.array([limb.chain(joints) for limb, joints in limbs])
         held = tuple(self._index.get(int(number), -1) for number in self.trace.holds[k])
-        corners = np.stack([outline.real, outline.imag], axis=-1)
-        return Posture(x, y, angle, corners, np.array(chains), np.array(grips), held)
+        return chained_pose(self.task.robot, origin, angle, chains, held)
 
     def at_time(self, time: float) -> Moment:
         """The robot at a time [s]."""
@@ -252,13 +245,3 @@ def run_film(run: ClimbRun) -> ClimbFilm:
 def run_picture(run: ClimbRun) -> ClimbPicture:
     """A figure of it."""
     return ClimbPicture(run_film(run))
-
-
-def _chain(limb: Limb, origin: complex, angle: float, joints: Floats) -> list[tuple[float, float]]:
-    """Port, elbow, end of the second link and tip, world frame [m]."""
-    port = origin + complex(limb.port_x, limb.port_y) * cmath.exp(1j * angle)
-    first = angle + limb.port_angle + float(joints[0])
-    elbow = port + cmath.rect(limb.l1, first)
-    second = first + float(joints[1])
-    end, tip = elbow + cmath.rect(limb.l2, second), elbow + cmath.rect(limb.l2_effective, second + limb.hook_beta)
-    return [(point.real, point.imag) for point in (port, elbow, end, tip)]

@@ -8,10 +8,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from ....planning.problem.problem import Records
-from ....types import Floats
+from ....types import Complexes, Floats
 from ..robot.robot import Limb, LimbedRobot
 from ..world.board import Board
 
@@ -119,20 +118,19 @@ def pose(
     chains = [
         limb_chain(limb, origin, angle, tip, side) for limb, tip, side in zip(robot.limbs, tips, sides, strict=True)
     ]
-    grips = [
-        cmath.phase((chain[2] - chain[1]) * cmath.exp(1j * limb.end.angle))
-        for limb, chain in zip(robot.limbs, chains, strict=True)
-    ]
-    outline = origin + body_outline(robot) * cmath.exp(1j * angle)
-    return Posture(
-        origin.real,
-        origin.imag,
-        angle,
-        np.stack([outline.real, outline.imag], axis=-1),
-        np.array([[(point.real, point.imag) for point in chain] for chain in chains]),
-        np.array(grips),
-        held,
-    )
+    return chained_pose(robot, origin, angle, np.array(chains), held)
+
+
+def chained_pose(
+    robot: LimbedRobot, origin: complex, angle: float, chains: Complexes, held: tuple[int, ...]
+) -> Posture:
+    """The posture with port, elbow, end of the second link and tip of every limb at their places, shape (limbs, 4)."""
+    hooks = np.exp(1j * np.array([limb.end.angle for limb in robot.limbs]))
+    turn = cmath.exp(1j * angle)
+    outline = origin + turn * body_outline(robot)
+    corners, drawn = (np.stack([points.real, points.imag], axis=-1) for points in (outline, chains))
+    grips = np.angle((chains[:, 2] - chains[:, 1]) * hooks)
+    return Posture(origin.real, origin.imag, angle, corners, drawn, grips, held)
 
 
 def stance_posture(robot: LimbedRobot, board: Board, stance: np.void) -> Posture:
@@ -143,7 +141,7 @@ def stance_posture(robot: LimbedRobot, board: Board, stance: np.void) -> Posture
     return pose(robot, origin, angle, tips, stance_sides(robot, stance, tips), held)
 
 
-def body_outline(robot: LimbedRobot) -> npt.NDArray[np.complex128]:
+def body_outline(robot: LimbedRobot) -> Complexes:
     """Corners of the body, body frame [m], anticlockwise: the polygon of its ports, extended by the body margin."""
     round_ = max(robot.body_margin, 1e-3) * np.exp(1j * np.linspace(0.0, math.tau, ROUNDING, endpoint=False))
     ports = np.array([complex(limb.port_x, limb.port_y) for limb in robot.limbs])
@@ -152,7 +150,7 @@ def body_outline(robot: LimbedRobot) -> npt.NDArray[np.complex128]:
     directions = np.exp(1j * np.linspace(-math.pi, math.pi, 8 * ROUNDING, endpoint=False))
     farthest = np.argmax((points[None, :] * directions.conj()[:, None]).real, axis=1)
     kept = [int(k) for k, before in zip(farthest, np.roll(farthest, 1), strict=True) if k != before]
-    corners: npt.NDArray[np.complex128] = points[kept]
+    corners: Complexes = points[kept]
     return corners
 
 

@@ -13,7 +13,7 @@ from ....errors import UnknownNameError, describe_choices
 from ....files import Document, check_schema
 from ....notebook import Pictured
 from ....specs import Name, Provenance, build_spec, collect_sources, spec
-from ....types import Floats
+from ....types import Complexes, Floats
 from ....units import (
     GRAVITY,
     Angle,
@@ -139,6 +139,18 @@ class Limb:
     def length(self) -> float:
         """Distance from port to tip when stretched, l1 + L2 [m]."""
         return self.l1 + self.l2_effective
+
+    def chain(self, joints: Floats) -> Complexes:
+        """Port, elbow, end of the second link and tip as x + iy in the body frame, shape (4, ...) [m].
+
+        Args:
+            joints: Shoulder and elbow angle, shape (..., 2) [rad].
+        """
+        first = np.exp(1j * (self.port_angle + joints[..., 0]))
+        second = first * np.exp(1j * joints[..., 1])
+        port = np.full(first.shape, complex(self.port_x, self.port_y))
+        elbow = port + self.l1 * first
+        return np.array((port, elbow, elbow + self.l2 * second, elbow + self.second_link * second))
 
 
 @spec

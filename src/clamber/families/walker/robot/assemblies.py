@@ -4,12 +4,10 @@ import math
 from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-from ....types import Floats
+from ....types import Complexes, Floats
 from .two_frames import actuator_lengths, length_jacobian
 
-Complexes = npt.NDArray[np.complex128]
 ON_CIRCLE: Final = 1e-3
 """A root counts as an angle if its size is within this of 1: a double root splits by the square root of rounding [-]."""
 EXACT: Final = 1e-10
