@@ -35,8 +35,7 @@ def measured() -> dict[str, Row]:
     space = page("space-execution.md").split("**On held-out seeds**")[1]
     for row in tables(space, "came to their end", "command"):
         success, _, n = row["came to their end"].partition(" of ")
-        old = ", control of before" if row["task"].endswith("control of before") else ""
-        found[row["command"]] = {"success": success, "n": n, "noise": f"usual, held-out seeds{old}"}
+        found[row["command"]] = {"success": success, "n": n, "noise": "usual, held-out seeds"}
     return found
 
 
