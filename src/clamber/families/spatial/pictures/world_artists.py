@@ -2,7 +2,7 @@
 
 import math
 from collections import Counter
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -42,6 +42,11 @@ MOST_NORMALS: Final = 700
 MOST_NUMBERED: Final = 70
 """Worlds with more holds show them without their numbers."""
 
+LETTER: Final = 0.01
+"""About how wide a letter of a goal's name is, over the larger side of the picture [-]."""
+Name: TypeAlias = tuple[float, float, float]
+"""From where to where a goal's name goes in the picture's plane, and how high [m]."""
+
 
 def picture_bounds(camera: Camera, shown: Floats) -> Bounds:
     """The part of a picture's plane that holds some places, shape (n, 3), with room around them [m]."""
@@ -71,11 +76,10 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
     _draw_faces(axes, solid, camera)
     axes.add_collection(LineCollection(list(camera.flat(surfaces.lines)), colors=GRID, linewidths=0.6, zorder=1.2))
     _draw_glass(axes, glass, camera)
-    for k, goal in enumerate(task.goals):
-        _draw_goal(axes, task, goal, k, camera, bounds)
+    names = [_draw_goal(axes, task, goal, k, camera, bounds) for k, goal in enumerate(task.goals)]
     _draw_guide(axes, task, camera)
     _draw_holds(axes, task, camera, bounds)
-    _draw_scale(axes, task, camera, shown, bounds)
+    _draw_scale(axes, task, camera, shown, bounds, [name for name in names if name is not None])
 
 
 def _set_axes(axes: Axes, bounds: Bounds) -> None:
@@ -157,10 +161,11 @@ def goal_strip(task: SpatialTask, goal: Goal) -> tuple[Floats, Floats] | None:
     return right, left
 
 
-def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Camera, bounds: Bounds) -> None:
+def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Camera, bounds: Bounds) -> Name | None:
+    """Draw a goal's region with its name; returns where that stands, None where nothing is seen."""
     edges = goal_strip(task, goal)
     if edges is None:
-        return
+        return None
     last = index == len(task.goals) - 1
     outline = camera.flat(np.concatenate((edges[0], edges[1][::-1])))
     for face, line, alpha in ((style.GOAL, "none", 0.24 if last else 0.12), ("none", style.GOAL, 1.0)):
@@ -173,7 +178,7 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
     clipped = Path(outline).clip_to_bbox(Bbox.from_extents(bounds[0], bounds[2], bounds[1], bounds[3]))
     inside = np.asarray(clipped.vertices, np.float64)
     if not len(inside):
-        return
+        return None
     top = inside[int(np.argmax(inside[:, 1] - 1e-3 * inside[:, 0]))]
     left, high = (
         float(top[0]) <= 0.5 * (bounds[0] + bounds[1]),
@@ -183,6 +188,9 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
         goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
         ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
     )  # fmt: skip
+    length = LETTER * max(bounds[1] - bounds[0], bounds[3] - bounds[2]) * len(goal_label(task, index))
+    ends = (float(top[0]), float(top[0]) + (length if left else -length))
+    return min(ends), max(ends), float(top[1])
 
 
 def _draw_guide(axes: Axes, task: SpatialTask, camera: Camera) -> None:
@@ -235,8 +243,10 @@ def _draw_holds(axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds) -
         )  # fmt: skip
 
 
-def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds) -> None:
-    """A bar of a round length, and the world's axes as they are seen, in an empty corner."""
+def _draw_scale(
+    axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds, names: list[Name]
+) -> None:
+    """A bar of a round length, and the world's axes as they are seen, in an empty corner away from the goals' names."""
     width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
     length = round_length(0.1 * max(width, height))
     words = f"{100.0 * length:g} cm" if length < 1.0 else f"{length:g} m"
@@ -248,7 +258,7 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bo
         color=style.INK, zorder=9, path_effects=[halo(2.4)],
     )  # fmt: skip
     arm = 1.4 * room
-    origin = _emptiest_corner(camera.flat(shown), bounds, 1.8 * arm)
+    origin = _emptiest_corner(camera.flat(shown), names, bounds, 1.8 * arm)
     for axis, name in zip(np.eye(3), "xyz", strict=True):
         tip = arm * camera.flat(axis)
         if float(np.hypot(*tip)) < 0.2 * arm:
@@ -271,16 +281,21 @@ def _draw_scale(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bo
         )
 
 
-def _emptiest_corner(places: Floats, bounds: Bounds, size: float) -> Floats:
-    """Where a mark of some size has the fewest places near: at the lower left, upper left or upper right.
+def _emptiest_corner(places: Floats, names: list[Name], bounds: Bounds, size: float) -> Floats:
+    """Where a mark of some size meets no name and the fewest places: at the lower left, upper left or upper right.
 
     Args:
         places: In the picture's plane [m], shape (n, 2).
+        names: Of goals.
         bounds: Of the picture.
         size: Half the width of the mark [m].
     """
     left, right, low, high = bounds[0] + size, bounds[1] - size, bounds[2] + size, bounds[3] - size
     corners = np.array([(left, low), (left, high), (right, high)])
-    crowd = [int((np.abs(places - corner) < 1.2 * size).all(axis=1).sum()) for corner in corners]
-    chosen: Floats = corners[int(np.argmin(crowd))]
+    near = 1.2 * size
+    crowd = []
+    for x, y in corners:
+        named = any(first - near < x < last + near and abs(height - y) < near for first, last, height in names)
+        crowd.append((named, int((np.abs(places - (x, y)) < near).all(axis=1).sum())))
+    chosen: Floats = corners[crowd.index(min(crowd))]
     return chosen
