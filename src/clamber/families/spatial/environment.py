@@ -95,7 +95,7 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         settings: Sequence[str] = (),
         plan: Plan | str | None = None,
         noise: Sequence[str] = (),
-        ticks: int = 4,
+        ticks: int = 2,
         seconds: float | None = None,
     ) -> None:
         self.task, self.plan = _planned(task, settings, plan)
