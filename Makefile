@@ -57,9 +57,8 @@ demo: $(RUN_STAMP)  ## plan a climb up the ladder and one up a wall in space, cl
 test: setup  ## fast tests
 	$(BIN)/python -m pytest -n $(JOBS) -m "not slow and not long"
 
-slow: setup  ## slow tests: peers, walks, climbs, every command of the pages
+slow: setup  ## tests that take seconds each: whole runs, commands of the pages, kernels compiled anew
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m slow
-	$(MAKE) bounds
 
 # Compiling takes most of the time, so a few tests of every folder with kernels. Left out: rivals and reach maps, which share `step` and
 # `candidates` with the planners, climbs and walks in the plane, whose kernels are those of control, and all that compares speed.
@@ -71,11 +70,12 @@ BOUNDED := tests/actions/test_plan.py tests/actions/test_walker.py tests/statics
 	tests/spatial/test_spatial_terrain.py tests/spatial/test_whole_body_laws.py tests/spatial/test_estimate.py \
 	tests/spatial/test_spatial_plant.py tests/spatial/test_break_away.py tests/spatial/test_carrying.py tests/spatial/test_space_faults.py
 
-bounds: setup  ## fast tests with every index of the kernels checked, a part of `make slow`
-	CLAMBER_BOUNDSCHECK=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 10 -m "not slow and not long" $(BOUNDED)
+bounds: setup  ## tests of kernels with every index checked, the end of `make long`
+	CLAMBER_BOUNDSCHECK=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 10 -m "not long" $(BOUNDED)
 
-long: setup  ## the longest tests: published results that search or tune for minutes
+long: setup  ## the longest tests: searches, tunings and thousands of cases that take tens of seconds and more each
 	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal --durations 25 -m long
+	$(MAKE) bounds
 
 lint: setup  ## format and lint
 	$(BIN)/ruff format --check .

@@ -99,6 +99,7 @@ def edit(path: Path, old: str, new: str) -> None:
     path.write_text(text.replace(old, new))
 
 
+@pytest.mark.slow
 def test_an_edited_kernel_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
     package, cache = copied(tmp_path), tmp_path / "cache"
     assert answer(package, cache) == (11.0, 0)
@@ -119,6 +120,7 @@ def hash_of(package: Path) -> str:
     return kernel_hash(package)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -135,6 +137,7 @@ def test_the_hash_follows_every_file_that_decides_what_is_compiled(tmp_path: Pat
     assert hash_of(package) != before
 
 
+@pytest.mark.slow
 def test_the_hash_leaves_out_files_that_no_kernel_reads_from(tmp_path: Path) -> None:
     package = copied(tmp_path)
     before = hash_of(package)
@@ -190,7 +193,7 @@ def frozen_constants() -> set[tuple[Path, str]]:
     return found
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_hash_follows_every_constant_that_a_kernel_reads_from_a_file_without_kernels(tmp_path: Path) -> None:
     package, whole = copied(tmp_path), set(kernel_files())
     found = frozen_constants()
@@ -238,6 +241,7 @@ def scale(x):
 VERDICT = "from clamber.planning.problem.freezing import verdict; print(verdict(True), sum(verdict.stats.cache_hits.values()))"
 
 
+@pytest.mark.slow
 def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_warm(tmp_path: Path) -> None:
     package, cache = copied(tmp_path), tmp_path / "cache"
     (package / "planning" / "problem" / "freezing.py").write_text(FREEZING)
@@ -253,7 +257,7 @@ def test_a_constant_of_a_file_without_kernels_answers_anew_though_the_cache_is_w
     assert answer(package, cache, VERDICT) == (242.0, 0)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_exact_planner_answers_right_after_its_constants_were_exchanged(tmp_path: Path) -> None:
     package = tmp_path / "clamber"
     shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__"))
@@ -282,6 +286,7 @@ def plans(n: int, entries: int, longest: int = 60) -> tuple[Any, Any]:
     return rng.integers(0, entries, (n, longest)).astype(np.int32), rng.integers(1, longest + 1, n).astype(np.int32)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["ladder", "circle", "gecko-climb"])
 def test_any_number_of_threads_gives_the_same_bits(name: str) -> None:
     task: Any = load_task(name)

@@ -158,11 +158,12 @@ def check_cases(first: int, last: int) -> None:
     assert told["slowest"] <= 10.0 and told["largest"] <= 1 << 30
 
 
+@pytest.mark.slow
 def test_some_cases_of_all_commands_end_as_they_should() -> None:
     check_cases(0, FAST_CASES)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("quarter", range(4))
 def test_all_cases_of_all_commands_end_as_they_should(quarter: int) -> None:
     check_cases(quarter * CASES // 4, (quarter + 1) * CASES // 4)

@@ -33,6 +33,7 @@ def files(cache: Path, suffix: str, kernel: str = "doubled") -> list[Path]:
     return sorted(cache.glob(f"kernels-*/*.{kernel}-*.{suffix}"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
 def test_a_damaged_file_is_compiled_anew_and_replaced(tmp_path: Path, suffix: str) -> None:
     cache, answers = tmp_path / "cache", "8.0 3.0 2.0 1.0 0.0"
@@ -59,6 +60,7 @@ class Bomb:
         return Path.touch, (self.path,)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["nbi", "nbc"])
 @pytest.mark.parametrize("sealed", [False, True])
 def test_a_pickle_that_others_could_have_written_is_never_loaded(tmp_path: Path, suffix: str, sealed: bool) -> None:
@@ -104,6 +106,7 @@ def test_links_and_pipes_are_refused(tmp_path: Path) -> None:
         read_sealed(tmp_path / "pipe")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", ["root", "kernels"])
 def test_a_folder_that_others_can_write_is_not_used_and_one_line_says_so(tmp_path: Path, which: str) -> None:
     cache = tmp_path / "cache"
@@ -128,6 +131,7 @@ def test_a_folder_that_cannot_be_made_is_told_in_one_line(tmp_path: Path) -> Non
     assert str(file / "cache") in line and "compiled anew" in line and "CLAMBER_CACHE" in line
 
 
+@pytest.mark.slow
 def test_the_cache_is_its_users_alone_whatever_the_umask(tmp_path: Path) -> None:
     cache = tmp_path / "below" / "cache"
     assert run(cache, "open") == ("8.0 0", "")
@@ -151,6 +155,7 @@ def doctor(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, 
     return call
 
 
+@pytest.mark.slow
 def test_doctor_tells_each_state_of_the_cache(tmp_path: Path, doctor: Any) -> None:
     cache = tmp_path / "cache"
     run(cache)
@@ -205,6 +210,7 @@ except IndexError:
 """
 
 
+@pytest.mark.slow
 def test_a_debug_build_checks_every_index_and_keeps_its_code_apart(tmp_path: Path) -> None:
     script, said = tmp_path / "script.py", []
     script.write_text(OUTSIDE)
@@ -218,6 +224,7 @@ def test_a_debug_build_checks_every_index_and_keeps_its_code_apart(tmp_path: Pat
     assert len(list((tmp_path / "cache").glob("kernels-*"))) == 2
 
 
+@pytest.mark.slow
 def test_a_kernel_whose_source_is_no_file_is_compiled_and_never_taken_for_another(tmp_path: Path) -> None:
     """As in a notebook's cell: what a kernel of its name did in another process cannot be asked."""
     answers = []

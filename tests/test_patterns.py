@@ -91,11 +91,13 @@ def too_long(use: Callable[[str], object]) -> str:
     return ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("place", PATTERNS)
 def test_no_pattern_blows_up(place: str) -> None:
     assert too_long(PATTERNS[place].search) == ""
 
 
+@pytest.mark.slow
 def test_a_pattern_that_blows_up_is_seen() -> None:
     assert too_long(re.compile(r"\s*(.*?)\s*(?:\[\s*([^\]]*?)\s*\])?\s*\Z").search) != ""
 

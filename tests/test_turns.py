@@ -64,10 +64,12 @@ def use_at_once(folder: Path, *arguments: str) -> list[tuple[str, str]]:
     return [(value, compiled) for value, compiled in told]
 
 
+@pytest.mark.slow
 def test_a_kernel_that_several_processes_need_at_once_is_compiled_by_one_of_them(tmp_path: Path) -> None:
     assert sorted(use_at_once(tmp_path, "3", "3", "3")) == [("12", "0"), ("12", "0"), ("12", "1")]
 
 
+@pytest.mark.slow
 def test_code_for_other_types_compiled_at_the_same_time_stays_apart(tmp_path: Path) -> None:
     assert use_at_once(tmp_path, "3", "0.5", "2j") == [("12", "1"), ("0.75", "1"), ("(-4+2j)", "1")]
     assert use_at_once(tmp_path, "3", "0.5", "2j") == [("12", "0"), ("0.75", "0"), ("(-4+2j)", "0")]

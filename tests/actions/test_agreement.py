@@ -262,7 +262,7 @@ def test_kernel_and_page_agree(part: int) -> None:
     agree(range(part, FAST, 4))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("part", range(40))
 def test_kernel_and_page_agree_on_a_hundred_thousand_actions(part: int) -> None:
     agree(range(1000 + part, 1000 + SLOW, 40))

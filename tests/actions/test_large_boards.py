@@ -202,6 +202,7 @@ def test_the_way_over_a_wall_is_that_of_steps_and_leads_round_bare_parts() -> No
     assert field[rows[0], column] >= rows[1] - rows[0] - 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_a_route_up_a_wall_replays_to_the_goal_and_is_the_same_each_time(seed: int) -> None:
     task = random_task(400, 20.0, seed)

@@ -161,6 +161,7 @@ def random_task(rng: random.Random) -> WalkerTask:
     return load(*overrides, ground=ground)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("most", first_fast([2000, 6000]))
 def test_kernel_and_plain_evaluator_agree_on_random_walks(most: int) -> None:
     rng = random.Random(5)
@@ -368,6 +369,7 @@ def keys_of(problem: Any, stance: Any) -> bytes:
     return words.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", ["walker", "limbed"])
 def test_one_planner_works_on_both_families(family: str) -> None:
     if family == "walker":
@@ -383,6 +385,7 @@ def test_one_planner_works_on_both_families(family: str) -> None:
     assert len(problem.features) <= 8 and problem.features[:2] == FEATURE_NAMES[:2]
 
 
+@pytest.mark.slow
 def test_the_genetic_planner_crosses_the_field_and_the_plain_evaluator_agrees() -> None:
     task = load()
     result = plan_task(task, "genetic", seed=0, threads=1, max_evaluations=12_000)

@@ -48,6 +48,7 @@ def test_a_wrong_argument_is_named(call: Any, named: str) -> None:
     assert named in str(raised.value)
 
 
+@pytest.mark.slow
 def test_answers_are_short_and_have_a_picture() -> None:
     result = clamber.plan("ladder", "greedy")
     verdict = clamber.check(result)

@@ -98,11 +98,13 @@ def test_a_plan_in_ten_lines(tmp_path: Path) -> None:
     assert clamber.draw(result, tmp_path / "plan.png").stat().st_size > 1000
 
 
+@pytest.mark.slow
 def test_a_task_of_a_walker_is_planned_by_the_same_function() -> None:
     result = clamber.plan("patch-walk", "exact", seconds=60.0)
     assert result.has_plan and clamber.check(result).reached
 
 
+@pytest.mark.slow
 def test_a_comparison_in_ten_lines(tmp_path: Path) -> None:
     result = clamber.compare(["scct", "jacobian-transpose"], "circle", radius=0.03, lap=3.0, flaws="nominal")
     off = {row.entry.label: row.measures[0].true.radial_rms for row in result.rows}
@@ -121,6 +123,7 @@ def test_a_comparison_takes_texts_where_the_command_does() -> None:
     assert push.scenario.kind == "push" and push.limb.start == pytest.approx((0.2, 0.05))
 
 
+@pytest.mark.slow
 def test_a_walk_is_run_by_name(tmp_path: Path) -> None:
     walk = clamber.load_walk("level-walk", ["way.0.distance=0.1m"])
     run = clamber.run(walk)

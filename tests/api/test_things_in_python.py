@@ -22,6 +22,7 @@ print(trials.again(5).done == trials.ended[0].done, clamber.trials is type(clamb
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 def test_robots_and_worlds_alone_are_inspected_and_drawn(name: str, tmp_path: Path) -> None:
     task = clamber.load_task(name)
@@ -42,6 +43,7 @@ def test_worlds_of_any_family_are_loaded_by_name(name: str, kind: str) -> None:
     assert world.name == name and clamber.inspect(world).kind == kind
 
 
+@pytest.mark.slow
 def test_a_sweep_and_a_reach_have_pictures(tmp_path: Path) -> None:
     sweep = clamber.sweep("ladder", vary="motor.torque_limit=3Nm..21Nm:2", workers=1)
     assert sweep.found == 1 and "1 of 2 points of 'ladder'" in repr(sweep)
@@ -110,7 +112,7 @@ def test_whatever_there_is_opens_in_the_viewer(name: str) -> None:
                 assert page.status == 200
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_trials_start_from_a_script_that_works_at_its_top_level(tmp_path: Path) -> None:
     (tmp_path / "work.py").write_text(WORK)
     environment = os.environ | {"PYTHONPATH": str(Path(clamber.__file__).parents[1])}

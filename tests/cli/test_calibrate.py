@@ -8,6 +8,7 @@ import pytest
 Clamber = Callable[..., tuple[int, str, str]]
 
 
+@pytest.mark.slow
 def test_calibrate_lists_fits_and_rivals(clamber: Clamber) -> None:
     code, out, _ = clamber("calibrate", "--seeds", "1", "--json")
     assert code == 0

@@ -9,6 +9,7 @@ import pytest
 Clamber = Callable[..., tuple[int, str, str]]
 
 
+@pytest.mark.slow
 def test_ditch_tells_the_widest_by_angle(clamber: Clamber, tmp_path: Path) -> None:
     code, out, _ = clamber("ditch", "--straight", "--json", "-o", str(tmp_path / "map.png"))
     assert code == 0

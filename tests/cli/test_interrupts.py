@@ -160,7 +160,7 @@ def running(words: str, folder: Path, **variables: str) -> Iterator[Command]:
             process.wait()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("words", LONG)
 def test_an_interrupt_at_any_moment_ends_it_soon(words: str, tmp_path: Path) -> None:
     drawn, latest, number = random.Random(words), LATEST, 0
@@ -183,7 +183,7 @@ def test_an_interrupt_at_any_moment_ends_it_soon(words: str, tmp_path: Path) -> 
                 assert latest > SHORTEST, f"it takes {latest / ENDED:.1f} s: {command.out}"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("words", FIRST)
 def test_an_interrupt_while_kernels_are_compiled_ends_it_soon(words: str, tmp_path: Path) -> None:
     drawn = random.Random(words)
@@ -232,6 +232,7 @@ print(twice(2), taken)
 """
 
 
+@pytest.mark.slow
 def test_numba_takes_all_that_is_registered_though_an_interrupt_ends_what_waits_for_it(tmp_path: Path) -> None:
     script = tmp_path / "registering.py"  # Numba reads the source of a kernel
     script.write_text(REGISTERING)
@@ -297,6 +298,7 @@ def test_what_there_is_is_told(words: str, first: str, kept: str, tmp_path: Path
         assert re.search(kept, command.out), command.out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "said"),
     [("run ladder", "nothing has moved"), ("plan ladder --to-run", ""), ("run wall-gripper", "nothing has moved")],
@@ -350,6 +352,7 @@ def listens() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("listens")
 def test_an_interrupt_that_was_lost_comes_again_until_it_is_answered() -> None:
     with pytest.raises(KeyboardInterrupt):
@@ -519,6 +522,7 @@ with interrupts.listening():
 """
 
 
+@pytest.mark.slow
 def test_after_an_interrupt_kernels_are_used_and_none_is_compiled(tmp_path: Path) -> None:
     script = tmp_path / "late.py"
     script.write_text(COMPILED_LATE)

@@ -20,6 +20,7 @@ def log(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_a_recorded_log_is_identified_in_a_table_of_eighty_columns(clamber: Any, log: Path) -> None:
     code, text, _ = clamber("limb", "identify", str(log))
     assert code == 0
@@ -28,6 +29,7 @@ def test_a_recorded_log_is_identified_in_a_table_of_eighty_columns(clamber: Any,
     assert max(map(len, text.splitlines()[1:])) <= 80
 
 
+@pytest.mark.slow
 def test_json_a_picture_and_lines_for_a_robot_file_come_from_the_same_log(
     clamber: Any, log: Path, tmp_path: Path
 ) -> None:
@@ -87,6 +89,7 @@ def test_a_log_that_tells_nothing_says_what_it_would_need_and_leaves_with_one(cl
     assert "backlash: not in this log: needs an angle measured behind the gear" in text
 
 
+@pytest.mark.slow
 def test_what_no_joint_can_have_is_warned_of(clamber: Any, log: Path, tmp_path: Path) -> None:
     kept = read_log(log)
     driven = ("current", "command", "torque")
@@ -98,6 +101,7 @@ def test_what_no_joint_can_have_is_warned_of(clamber: Any, log: Path, tmp_path: 
     assert "below 0" not in "".join(clamber("limb", "identify", str(log))[1:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("constant", [0.0, 0.3])  # currents and commands are what torques come from
 @pytest.mark.parametrize("word", ["current", "command", "angle"])
 def test_columns_that_never_change_end_in_an_error_or_an_answer(

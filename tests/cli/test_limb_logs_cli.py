@@ -75,6 +75,7 @@ def test_an_admittance_yields_to_a_push_as_its_spring_says_and_the_table_names_i
     assert "force sensor" not in clamber("limb", "push", "-c", "scct", "-q")[1]
 
 
+@pytest.mark.slow
 def test_trials_over_workers_give_the_same_bytes(clamber: Any) -> None:
     words = ("limb", "step", "-c", "scct", "--seconds", "1", "--flaws", "nominal", "--trials", "4", "--json", "-q")
     told = []

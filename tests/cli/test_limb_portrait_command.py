@@ -13,6 +13,7 @@ def run(clamber: Any) -> Any:
     return partial(clamber, "limb", "portrait")
 
 
+@pytest.mark.slow
 def test_tables_fit_80_columns_and_pictures_are_written(run: Any, tmp_path: Path) -> None:
     code, out, _ = run("implicit-admittance", "hybrid", "-o", str(tmp_path / "new"), "-q")
     assert code == 0

@@ -61,7 +61,7 @@ def test_a_sweep_is_told_as_table_json_picture_and_csv(clamber: Any, tmp_path: P
     assert len(table.read_text().splitlines()) == 4
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_tuning_is_saved_and_drawn(clamber: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Of two damping times in place of ten: five minutes less."""
     monkeypatch.setattr(tune, "tune", partial(tune.tune, damping_times=(0.028, 0.04), effort="search"))

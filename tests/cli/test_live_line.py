@@ -92,6 +92,7 @@ def test_what_is_left_of_a_count_is_told_from_its_first_on(pass_time: Callable[[
     assert lines(console) == ["preparing a.gif", "frame 1 of 20, 20 s", "frame 11 of 20, 30 s, about 10 s left"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("words", "first", "shown"),
     [

@@ -12,6 +12,7 @@ def most(clamber: Any) -> Any:
     return partial(clamber, "max-setting", "level-walk", "--set", "way.0.distance=2cm")
 
 
+@pytest.mark.slow
 def test_the_heaviest_payload_stands_beside_the_next_that_is_not_borne(most: Any) -> None:
     code, out, _ = most("--vary", "payload=5kg..40kg:2", "--json", "-q")
     said = json.loads(out)

@@ -37,6 +37,7 @@ def run(capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, tmp_
     return call
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("limbs", first_fast(["4", "3", "6"]))
 def test_from_nothing_to_a_plan_in_five_commands(run: Run, tmp_path: Path, limbs: str) -> None:
     for words in (

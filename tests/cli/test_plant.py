@@ -64,6 +64,7 @@ def moved(said: str) -> float:
     return float(match[1])
 
 
+@pytest.mark.slow
 def test_a_climb_through_a_socket_is_the_same_climb_to_the_last_bit(clamber: Any, tmp_path: Path) -> None:
     plan, logs = plan_file(tmp_path, 191, 300), [tmp_path / "here.csv", tmp_path / "there.csv"]
     assert clamber("run", plan, "--plant", "volts", *PEGS, "-o", str(logs[0]), "-q")[0] == 0
@@ -80,6 +81,7 @@ def test_a_climb_through_a_socket_is_the_same_climb_to_the_last_bit(clamber: Any
         assert np.array_equal(getattr(here, key), getattr(there, key)), key
 
 
+@pytest.mark.slow
 def test_a_client_that_is_killed_leaves_the_robot_on_its_pegs_and_the_next_one_climbs(
     clamber: Any, tmp_path: Path
 ) -> None:
@@ -94,6 +96,7 @@ def test_a_client_that_is_killed_leaves_the_robot_on_its_pegs_and_the_next_one_c
         assert clamber("run", plan_file(tmp_path, 300), "--plant", address, *PEGS, "-q")[0] == 0
 
 
+@pytest.mark.slow
 def test_a_client_of_a_real_time_plant_that_is_killed_leaves_the_robot_on_its_pegs(tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 300, 3)
     slowly = ("--real-time", "--pace", "0.4", "--set", "plant.delay=0", "--once")
@@ -107,6 +110,7 @@ def test_a_client_of_a_real_time_plant_that_is_killed_leaves_the_robot_on_its_pe
         assert moved(said) < 1.0
 
 
+@pytest.mark.slow
 def test_a_client_that_stalls_finds_a_real_time_plant_stopped(tmp_path: Path) -> None:
     plan, log = plan_file(tmp_path, 300, 3), tmp_path / "run.csv"
     with served("ladder", "--real-time", "--pace", "0.4", "--set", "plant.delay=0") as (server, address):
@@ -127,6 +131,7 @@ def test_a_client_that_stalls_finds_a_real_time_plant_stopped(tmp_path: Path) ->
     assert ClimbTrace.from_log(read_log(log)).time[-1] == pytest.approx(report["seconds"])
 
 
+@pytest.mark.slow
 def test_a_server_that_is_killed_ends_the_run_with_a_reason_and_a_whole_log(tmp_path: Path) -> None:
     plan, log = plan_file(tmp_path, 191, 300), tmp_path / "run.csv"
     with served("ladder", *PEGS, "-q") as (server, address):
@@ -150,6 +155,7 @@ def test_a_served_plant_of_another_board_is_refused(clamber: Any, tmp_path: Path
         assert "its place is 'h'; must be 'ladder'" in err and "Traceback" not in err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGHUP, 129)])
 def test_a_server_that_is_ended_stops_the_robot_safely_first_and_says_so(
     tmp_path: Path, number: signal.Signals, code: int
@@ -168,6 +174,7 @@ def test_a_server_that_is_ended_stops_the_robot_safely_first_and_says_so(
     assert json.loads(out)["reason"] == "stopped: the plant has made a safe stop: its server ends"
 
 
+@pytest.mark.slow
 def test_an_operator_stops_a_climb_from_another_process_and_gives_the_robot_back(clamber: Any, tmp_path: Path) -> None:
     plan = plan_file(tmp_path, 191, 300)
     with served("ladder", *PEGS) as (server, address):

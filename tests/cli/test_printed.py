@@ -40,13 +40,14 @@ def check(printed: Any, words: str) -> None:
     Draft202012Validator(schema_of(command_in(words))).validate(printed(words))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", QUICK)
 def test_output_is_as_its_schema_says(printed: Any, words: str) -> None:
     check(printed, words)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", LONG)
 def test_output_of_what_takes_longer_is_too(printed: Any, words: str) -> None:
@@ -71,6 +72,7 @@ def test_every_command_has_an_example_here() -> None:
         assert f'schema_of("{command}")' in (ROOT / test).read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", PRINTED)
 def test_schemas_are_schemas_and_every_object_says_what_it_is(command: str) -> None:
     schema = schema_of(command)

@@ -75,6 +75,7 @@ def test_plans_are_words_and_codes_on_request(clamber: Clamber) -> None:
     assert all(number.isdecimal() for number in numbers)
 
 
+@pytest.mark.slow
 def test_a_long_plan_is_cut_with_a_count(clamber: Clamber, tmp_path: Path) -> None:
     wall = tmp_path / "wall.toml"
     clamber("new", "board", "--random", "--holds", "400", "--width", "1.5m", "--task", "-o", str(wall))

@@ -22,6 +22,7 @@ def check(clamber: Any, words: list[str]) -> None:
     assert "Traceback" not in err
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", QUICK)
 def test_answers_fit_80_columns_without_colour(
@@ -31,7 +32,7 @@ def test_answers_fit_80_columns_without_colour(
     check(clamber, shlex.split(words))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.usefixtures("in_this_process")
 @pytest.mark.parametrize("words", [words for words in LONG if "start.y=" not in words])
 def test_answers_that_take_longer_do_too(

@@ -49,6 +49,7 @@ def test_the_limit_of_a_walkers_plan_is_in_the_units_that_are_asked_for(clamber:
         assert told is not None and told[1] == unit
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("task", first_fast(["gap", "patch-walk"]))
 def test_a_plan_made_to_run_is_carried_out(clamber: Run, tmp_path: Path, task: str) -> None:
     plan = str(tmp_path / "p.json")
@@ -140,7 +141,7 @@ def test_motors_are_asked_for_as_much_as_the_robot_is_heavy(clamber: Run, tmp_pa
         assert (asked in told) if asked else ("N m of every joint" not in told)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("task", [name for name in task_names() if family_of(load_task(name)).dynamics is not None])
 def test_no_shipped_task_is_planned_to_run_and_refused(clamber: Run, tmp_path: Path, task: str) -> None:
     plan = str(tmp_path / "p.json")

@@ -29,6 +29,7 @@ def plan_file(folder: Path, *numbers: int) -> str:
     return str(folder / "plan.json")
 
 
+@pytest.mark.slow
 def test_trials_are_counted_stored_drawn_and_any_of_them_climbed_again(clamber: Any, tmp_path: Path) -> None:
     plan, store = plan_file(tmp_path, 300, 3), str(tmp_path / "trials.db")
     words = ("trials", plan, "-n", "3", "--seed", "5", "--workers", "1", "--store", store)
@@ -87,6 +88,7 @@ def test_a_success_that_is_asked_for_decides_how_it_leaves(clamber: Any, tmp_pat
     assert clamber(*words, "--at-least", "35%")[0] == 1
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 def test_two_plans_are_compared_with_the_same_seeds(clamber: Any, tmp_path: Path) -> None:
     good, fallen, store = plan_file(tmp_path, 300), tmp_path / "falls", tmp_path / "trials.db"

@@ -9,6 +9,7 @@ import pytest
 from clamber.planning.problem.plan import load_plan
 
 
+@pytest.mark.slow
 def test_a_plan_that_never_fails_comes_out_as_it_went_in(clamber: Any, example_folder: Path, tmp_path: Path) -> None:
     plan, out_file = example_folder / "two.json", tmp_path / "surer.json"
     code, out, err = clamber("validate", str(plan), "-n", "2", "--workers", "1", "--noise", "none", "-o", str(out_file))

@@ -88,6 +88,7 @@ def test_a_mirrored_log_gives_the_same_joint_and_a_torque_in_other_units_scales_
     np.testing.assert_allclose(scaled[:3], 1000.0 * first[:3], rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_errors_are_as_large_as_the_scatter_over_noise() -> None:
     clean = moved(excitation())
     assert clean.torque is not None

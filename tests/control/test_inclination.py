@@ -28,6 +28,7 @@ class Readings:
         return self.seen + self.wander
 
 
+@pytest.mark.slow
 def test_a_tilt_that_the_legs_do_not_tell_is_found_as_well_as_the_filter_says() -> None:
     errors, said = [], 0.0
     for seed in range(60):

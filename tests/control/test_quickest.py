@@ -34,6 +34,7 @@ def test_a_long_walk_goes_at_the_papers_speed() -> None:
     assert 60e3 * speed == pytest.approx(130.0, abs=1.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("direction", "distance", "pivots"), [(0.0, 4.0, True), (0.0, 1.0, False), (90.0, 2.0, False), (30.0, 1.0, False)]
 )

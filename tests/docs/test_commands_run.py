@@ -37,7 +37,7 @@ def install(package: Path, target: Path) -> Path:
     return target / package.name
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("page", [page for page, told in BLOCKS.items() if told])
 def test_commands_of_the_page_run(page: str, tmp_path: Path) -> None:
     plain = os.environ | {"NO_COLOR": "1", "COLUMNS": "80"}

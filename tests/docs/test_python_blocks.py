@@ -31,6 +31,7 @@ def blocks() -> list[Any]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("block", blocks())
 def test_a_block_runs(block: str, tmp_path: Path) -> None:
     assert len(block.splitlines()) <= TEN_LINES

@@ -57,6 +57,7 @@ def type_all(commands: list[Told], columns: int, encoding: str, folder: Path) ->
         check(typed(shlex.split(words), columns=columns, encoding=encoding, folder=folder), columns, words)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("columns", "encoding"), [*TERMINALS, (60, "utf-8")])
 def test_what_takes_seconds(columns: int, encoding: str, folder: Path) -> None:
     quick = [told for told in TYPED if QUICK.match(told.text) and "go2" not in told.text]
@@ -64,7 +65,7 @@ def test_what_takes_seconds(columns: int, encoding: str, folder: Path) -> None:
     type_all(quick, columns, encoding, folder)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("columns", "encoding"), TERMINALS)
 def test_all_that_the_readme_types_in_its_order(columns: int, encoding: str, folder: Path) -> None:
     type_all(TYPED, columns, encoding, folder)
@@ -99,6 +100,7 @@ def test_help_stands_in_a_narrow_latin_1_terminal(folder: Path) -> None:
         assert max(map(len, session.screen)) <= 60
 
 
+@pytest.mark.slow
 def test_a_command_that_loads_slowly_says_so_until_it_speaks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     slow = (
         "import sys, time\nclass Slow:\n    def find_spec(self, name, *_):\n"

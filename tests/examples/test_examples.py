@@ -36,6 +36,7 @@ def test_every_script_has_a_test_here() -> None:
     assert all(path.name in said for path in SCRIPTS)
 
 
+@pytest.mark.slow
 def test_a_plan_is_proved_and_judged(tmp_path: Path) -> None:
     out = run("01_plan_a_climb.py", tmp_path)
     assert out.startswith("optimal: 30 actions; no plan has fewer than 30 actions")
@@ -44,6 +45,7 @@ def test_a_plan_is_proved_and_judged(tmp_path: Path) -> None:
     assert (tmp_path / "ladder.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_an_own_robot_climbs_an_own_wall(tmp_path: Path) -> None:
     out = run("02_own_robot_and_wall.py", tmp_path)
     assert len(re.findall(r"; 0 odd$", out, re.MULTILINE)) == 3
@@ -52,7 +54,7 @@ def test_an_own_robot_climbs_an_own_wall(tmp_path: Path) -> None:
     assert (tmp_path / "four-limbs.png").stat().st_size > 10_000
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_five_holds_have_no_plan_and_the_reason_is_told(tmp_path: Path) -> None:
     out = run("03_five_holds_no_plan.py", tmp_path)
     assert re.match(r"infeasible: all \d+ reachable stances were seen and none meets the goal", out)
@@ -68,6 +70,7 @@ def test_a_printed_plan_is_climbed_on_pegs_that_are_off(tmp_path: Path) -> None:
     assert (tmp_path / "climb.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 def test_laws_are_compared_on_a_circle(tmp_path: Path) -> None:
     out = run("05_compare_controllers.py", tmp_path)
     assert re.findall(r"^  (\S+) +\d+\.\d+ mm off the circle", out, re.MULTILINE) == [
@@ -76,7 +79,7 @@ def test_laws_are_compared_on_a_circle(tmp_path: Path) -> None:
     assert (tmp_path / "circle.png").is_file() and len((tmp_path / "circle.csv").read_text().splitlines()) == 4
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_walker_goes_up_a_slope(tmp_path: Path) -> None:
     out = run("06_walk_up_a_slope.py", tmp_path)
     assert out.startswith("done: ")
@@ -84,6 +87,7 @@ def test_a_walker_goes_up_a_slope(tmp_path: Path) -> None:
     assert tilt is not None and float(tilt[1]) < 1.0
 
 
+@pytest.mark.slow
 def test_an_own_planner_finds_a_plan_that_holds(tmp_path: Path) -> None:
     out = run("07_own_planner.py", tmp_path)
     found, best = (int(length) for length in re.findall(r"(\d+) actions", out))

@@ -164,6 +164,7 @@ def test_a_rough_link_is_told_and_climbed_with(kind: str, size: float) -> None:
     assert run.report.findings[0].kind in ("no reading", "uneven ticks")
 
 
+@pytest.mark.slow
 def test_a_hold_that_breaks_is_the_told_cause() -> None:
     task, _ = two_rungs()
     number = next(iter(task.start.holds.values()))

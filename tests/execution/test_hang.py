@@ -275,6 +275,7 @@ def test_the_gap_needs_a_hang() -> None:
     assert [alone(course, step) is not None for step in range(len(course.stances))].count(True) >= 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "friction"), first_fast([(1, 1.0), (2, 0.7), (3, 1.3)]))
 def test_the_gap_is_crossed_hanging_and_no_hook_is_lost(seed: int, friction: float) -> None:
     task, error = gap(), 0.003

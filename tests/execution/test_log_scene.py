@@ -65,6 +65,7 @@ def check_shapes(found: dict[str, list[tuple[float, Any]]]) -> None:
     assert all(entity["frame_locked"] for entity in update["entities"])
 
 
+@pytest.mark.slow
 def test_a_climbs_frames_compose_to_the_tips_of_the_simulation(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tips: dict[float, Floats] = {}
     before = TracedClimber.sample
@@ -94,6 +95,7 @@ def test_a_climbs_frames_compose_to_the_tips_of_the_simulation(tmp_path: Path, m
     assert messages(tmp_path / "again.mcap")["frames"] == found["frames"]
 
 
+@pytest.mark.slow
 def test_a_walks_frames_compose_to_the_soles_of_the_simulation(tmp_path: Path) -> None:
     walk = clamber.load_walk("slope-walk", ["way.0.distance=0.05m"])
     run = clamber.run(walk, log=tmp_path / "walk.mcap")

@@ -184,6 +184,7 @@ def whole_records(content: bytes) -> bytes:
     return content[:end]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL is POSIX")
 def test_a_climb_that_is_killed_leaves_a_log_that_can_be_read(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
@@ -219,7 +220,7 @@ def test_a_climb_goes_on_without_its_log_and_says_from_when_that_is_missing(
     assert not (tmp_path / "run.mcap").exists()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.skipif(os.name != "posix", reason="SIGKILL is POSIX")
 def test_so_it_does_killed_at_any_moment(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     plan = climb_plan(tmp_path, (*GAIT, 3, 3))

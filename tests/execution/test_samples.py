@@ -90,6 +90,7 @@ def full_disk(size: int) -> Iterator[None]:
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
 
 
+@pytest.mark.slow
 def test_a_disk_that_gets_full_is_told_once_and_the_run_goes_on(tmp_path: Path) -> None:
     robot, told = Counter(), []
     samples = Samples(robot, 1)

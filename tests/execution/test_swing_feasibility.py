@@ -62,7 +62,7 @@ def test_pegs_where_a_hook_comes_from_leave_it_no_way(radius: float, blocked: bo
     assert (grabs[0] in told) == blocked
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     """The shortest cautious plan for H: its forces are easy, and a third of its climbs miss one grab."""
     task = climbing_task(load_task("h"))

@@ -16,6 +16,7 @@ def climbed(robot: LimbedRobot, **flaws: float) -> ClimbRun:
     return run_plan(replace(task, robot=robot), plan, climbing_flaws(task, ()).with_changes(**flaws))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("times", [0.1, 0.5, 3.0, 10.0])
 def test_a_robot_of_another_weight_climbs_as_soon(times: float) -> None:
     robot = two_rungs()[0].robot

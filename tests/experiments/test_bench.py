@@ -128,6 +128,7 @@ def test_speed_is_reported_for_every_load() -> None:
     assert all(row.value > 0.0 for row in told if "load of the machine" not in row.name)
 
 
+@pytest.mark.slow
 def test_memory_is_that_of_the_command_and_not_of_the_process_that_starts_it(tmp_path: Any) -> None:
     ballast = np.ones(400 * 2**20 // 8)
     seconds, memory = starts.run_command(("--help",), tmp_path)
@@ -171,6 +172,7 @@ def test_a_small_batch_gives_every_row_of_the_jobs_benchmark() -> None:
     assert made["time of 2 ready workers that the points took"] <= 1.0
 
 
+@pytest.mark.slow
 def test_cases_on_workers_are_the_trials_in_this_process_and_a_store_keeps_them(tmp_path: Path) -> None:
     task, profile = load_task("ladder", NEAR), load_profile("default")
     crew = Crew(executor=LocalProcesses(2), store=tmp_path / "store.db")

@@ -64,6 +64,7 @@ def contest() -> Contest:
     return run_contest(cases=cases, seeds=(0,), allowance=FEW, crew=Crew(executor=Here()))
 
 
+@pytest.mark.slow
 def test_the_set_is_five_boards_and_forty_random_ones_and_the_same_every_time() -> None:
     made = all_cases()
     assert len(made) == 45 and len({case.name for case in made}) == 45
@@ -96,6 +97,7 @@ def test_every_planner_takes_part_and_every_profile() -> None:
         assert "max_checks" in limits or limits["seconds"] <= FEW.patience
 
 
+@pytest.mark.slow
 def test_no_answer_contradicts_a_proof(contest: Contest) -> None:
     truths = contest.truths()
     assert contradictions(contest, truths) == []
@@ -167,6 +169,7 @@ def test_the_ranking_puts_those_first_that_solve_most(contest: Contest) -> None:
     assert shares == sorted(shares, reverse=True)
 
 
+@pytest.mark.slow
 def test_a_contest_resumes_and_tells_the_same_on_two_workers(tmp_path: Path) -> None:
     some = [contender for contender in contenders() if contender.name in ("greedy", "random", "exact")]
     setting = {"cases": [random_case(10, 1), random_case(10, 7)], "entrants": some, "seeds": (0,), "allowance": FEW}
@@ -282,12 +285,13 @@ def exact_agrees(board: tuple[int, float, int, tuple[str, ...]]) -> bool | None:
     return shortest is not None
 
 
+@pytest.mark.slow
 def test_exact_search_agrees_with_breadth_first_search_on_small_random_boards() -> None:
     told = [exact_agrees(board) for board in small_boards(15)]
     assert told.count(True) >= 3 and told.count(False) >= 3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_exact_search_agrees_with_breadth_first_search_on_two_hundred_small_random_boards() -> None:
     told: list[bool] = []
     for board in small_boards(260):

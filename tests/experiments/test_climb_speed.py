@@ -15,6 +15,7 @@ def test_the_benchmark_is_found_by_its_name() -> None:
     assert BENCHES["climb"] is speed.climb_rows
 
 
+@pytest.mark.slow
 def test_the_raw_steps_are_those_of_the_climb() -> None:
     """Same model, same steps, same torques and pushes: the robot ends where it did, to the last bit."""
     task, plan = two_rungs()
@@ -50,7 +51,7 @@ def test_a_trial_tells_who_did_it_and_how_long_it_took() -> None:
     assert told["seconds"] > 0.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_efficiency_of_workers_is_measured() -> None:
     rows = speed.trial_rows(trials=4, workers=(1, 2))
     assert [row.name for row in rows if row.name.startswith("efficiency")] == [

@@ -49,7 +49,7 @@ def test_trials_refuse_seeds_of_both_kinds(clamber: Any) -> None:
     assert code == 2 and "partly held out" in err
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_trials_say_whether_their_seeds_are_held_out(clamber: Any) -> None:
     words = ("trials", "level-walk", "-n", "1", "--workers", "1", "-q", "--seed")
     assert json.loads(clamber(*words, "1", "--json")[1])["held_out"] is False

@@ -40,10 +40,12 @@ def assert_within(found: Identification, part: float, **scales: float) -> None:
             assert estimate.value == pytest.approx(right, rel=part), (joint.samples.name, estimate.name)
 
 
+@pytest.mark.slow
 def test_every_parameter_of_a_limb_comes_within_five_percent_from_a_noisy_log() -> None:
     assert_within(identify_log(recorded("right", 0)), 0.05)
 
 
+@pytest.mark.slow
 def test_csv_and_mcap_files_give_the_same_numbers(tmp_path: Path) -> None:
     found = []
     for name in ("log.csv", "log.mcap"):
@@ -52,6 +54,7 @@ def test_csv_and_mcap_files_give_the_same_numbers(tmp_path: Path) -> None:
     assert found[0] == found[1] == identify_log(recorded("right", 0), joints=("right elbow",)).to_json()["joints"]
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_log() -> None:
     flaws = LimbFlaws(backlash=2 * DEGREE, encoder_counts=400, delay=1)
     first, second = recorded("right", 0), record_log(bench_limb("libra", "right"), flaws, SensorNoise(seed=0))

@@ -11,6 +11,7 @@ from clamber.families.spatial.trials import rival_stances, speed, stance_rivals,
 RIVALS = {"jet-leg": "jet_leg", "hpp-centroidal-dynamics": "hpp_centroidal_dynamics", "OMPL": "ompl"}
 
 
+@pytest.mark.slow
 def test_verdicts_are_those_of_highs_on_every_robot() -> None:
     rows = {row.name: row.value for row in speed.highs_rows(stances=250, rounds=1)}
     assert rows["stances whose verdict was compared with that of HiGHS"] > 200

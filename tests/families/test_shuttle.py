@@ -65,6 +65,7 @@ def test_it_is_small() -> None:
     assert sum(len(path.read_text().splitlines()) for path in HERE.glob("*.py")) <= 470
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", PLANNERS)
 def test_every_planner_plans_it(clamber: Run, planner: str) -> None:
     found = told(clamber, "plan", "shuttle-line", "--planner", planner, "--seconds", "20", "-q")
@@ -82,6 +83,7 @@ def test_it_is_listed_checked_and_inspected(clamber: Run, plan: Path) -> None:
     assert told(clamber, "shorten", str(plan))["length"] == SHORTEST
 
 
+@pytest.mark.slow
 def test_its_reach_is_mapped_and_its_keys_are_swept(clamber: Run) -> None:
     seen = told(clamber, "reach", "shuttle-line")
     assert set(seen["places"]) == {"x_m", "y_m", "angles", "stances", "first_step", "margin", "margin_check"}
@@ -100,6 +102,7 @@ def test_what_would_open_an_infeasible_task_is_told(clamber: Run) -> None:
     assert (opening["key"], opening["to"], opening["least"]) == ("robot.reach", 90.0, True)  # half of the gap of 18 cm
 
 
+@pytest.mark.slow
 def test_machine_code_is_made_anew_when_its_kernels_change(tmp_path: Path) -> None:
     """What is compiled for it stands in the cache of Clamber's own kernels, whose sources stay the same."""
     script = (
@@ -113,6 +116,7 @@ def test_machine_code_is_made_anew_when_its_kernels_change(tmp_path: Path) -> No
     assert told == pytest.approx([0.07, 0.01, 0.07])
 
 
+@pytest.mark.slow
 def test_it_is_drawn_shown_and_exported(clamber: Run, plan: Path) -> None:
     for command, file, begins in (
         ("show", "plan.png", b"\x89PNG"), ("show", "plan.gif", b"GIF8"), ("view", "plan.html", b"<"), ("export", "plan.csv", b"time [s]"),

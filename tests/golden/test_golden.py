@@ -10,7 +10,7 @@ def test_every_command_has_a_figure_to_keep() -> None:
     assert list(json.loads((HERE / "hashes.json").read_text())) == commands()
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_no_figure_has_changed() -> None:
     hashes = json.loads((HERE / "hashes.json").read_text())
     differ = [line for line, text in frozen_outputs() if digest(text) != hashes[line]]

@@ -50,6 +50,7 @@ def start(folder: Path, *names: str) -> "subprocess.Popen[str]":
     return subprocess.Popen(words, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(beginning.usable_cores() < 2, reason="on one core nothing is begun")
 def test_what_was_compiled_ahead_is_found(tmp_path: Path) -> None:
     assert start(tmp_path, "ahead_by_hand:compile_one").communicate(timeout=120) == ("2.0 0\n", "")
@@ -69,6 +70,7 @@ def test_what_is_not_done_when_the_block_ends_is_given_up(tmp_path: Path) -> Non
     assert not is_alive(int((tmp_path / "lingers").read_text()))
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(beginning.usable_cores() < 2, reason="on one core nothing is begun")
 def test_no_work_outlives_a_process_that_is_killed(tmp_path: Path) -> None:
     process = start(tmp_path, "ahead_by_hand:linger")

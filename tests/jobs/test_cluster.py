@@ -69,7 +69,7 @@ def nodes(monkeypatch: pytest.MonkeyPatch) -> Iterator[tuple[RayCluster, Callabl
 
 
 @needs_ray
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_cluster_runs_batches_as_local_workers_do(
     nodes: tuple[RayCluster, Callable[[], None]], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -124,7 +124,7 @@ def test_a_cluster_runs_batches_as_local_workers_do(
 
 
 @needs_ray
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_thousand_points_are_the_same_on_one_two_and_four_workers_and_on_two_nodes_of_which_one_is_lost(
     nodes: tuple[RayCluster, Callable[[], None]], tmp_path: Path
 ) -> None:
@@ -149,7 +149,7 @@ def test_a_thousand_points_are_the_same_on_one_two_and_four_workers_and_on_two_n
 
 
 @needs_ray
-@pytest.mark.slow
+@pytest.mark.long
 def test_climbs_are_the_same_on_a_cluster(nodes: tuple[RayCluster, Callable[[], None]], tmp_path: Path) -> None:
     there, _ = nodes
     task = load_task("ladder")
@@ -188,6 +188,7 @@ def test_ray_that_is_not_installed_is_told(monkeypatch: pytest.MonkeyPatch) -> N
         map_items(square, [{"n": 1}], executor=RayCluster("127.0.0.1:6379"))
 
 
+@pytest.mark.slow
 @needs_ray
 @pytest.mark.parametrize(
     ("body", "message"),

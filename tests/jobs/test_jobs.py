@@ -67,6 +67,7 @@ def test_what_always_kills_its_worker_or_raises_is_an_outcome_and_harms_no_other
     assert [one.result is None for one in told] == [False, True, True, False]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_a_batch_stopped_at_several_moments_ends_with_the_same_results_and_runs_nothing_finished_again(
     tmp_path: Path, stop: signal.Signals
@@ -101,6 +102,7 @@ def start_batch(folder: Path, *size: object) -> "subprocess.Popen[bytes]":
 MOMENTS = [3, pytest.param(20, marks=pytest.mark.slow)]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kills", MOMENTS)
 def test_a_whole_batch_killed_at_random_moments_loses_and_repeats_no_finished_item(tmp_path: Path, kills: int) -> None:
     n, sleep = 12 * kills, 0.02
@@ -128,6 +130,7 @@ def test_a_whole_batch_killed_at_random_moments_loses_and_repeats_no_finished_it
     assert [one.result for one in told] == [one.result for one in map_items(square, [{"n": k} for k in range(n)])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", MOMENTS)
 def test_workers_killed_at_random_moments_lose_and_repeat_no_finished_item(tmp_path: Path, kills: int) -> None:
     n, sleep = 12 * kills, 0.02
@@ -232,6 +235,7 @@ def test_a_result_without_its_fields_is_refused_by_name(tmp_path: Path) -> None:
         read_result(Point, {"values": ["1"], "reason": ""}, store)
 
 
+@pytest.mark.slow
 def test_two_runs_at_once_on_one_store_are_refused(tmp_path: Path) -> None:
     store = tmp_path / "store.db"
     other = sqlite3.connect(store, isolation_level=None)
@@ -255,6 +259,7 @@ def test_a_store_keeps_its_first_note_and_shows_what_is_in_it(tmp_path: Path) ->
         look_into(store, square, about={"a": 2}, title="batch two")
 
 
+@pytest.mark.slow
 def test_a_result_waits_for_a_locked_store_and_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -18,6 +18,7 @@ def test_every_law_has_an_equation() -> None:
         assert MathTextParser("path").parse(equation).width < 400.0
 
 
+@pytest.mark.slow
 @pytest.mark.locked
 def test_portraits_are_small_pictures_of_one_size_and_the_same_each_time(tmp_path: Path) -> None:
     for each in paint_portraits(["jacobian-transpose", "admittance"]):

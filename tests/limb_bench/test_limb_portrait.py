@@ -18,6 +18,7 @@ def painted() -> dict[str, Portrait]:
     return {each.law: each for each in paint_portraits(["scct", "hybrid", "jacobian-transpose"])}
 
 
+@pytest.mark.slow
 def test_gains_are_those_recommended_for_the_limb_unless_they_are_matched(painted: dict[str, Portrait]) -> None:
     for law, each in painted.items():
         (found,) = (one for one in read_recommended() if (one.robot, one.limb, one.law) == ("libra", "right", law))

@@ -121,7 +121,7 @@ def test_what_cannot_vary_is_named_before_anything_runs(vary: str, names: str) -
         run_limb_sweep(short_bench(), [range_axis(vary)])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_sweep_finds_its_boundary_on_any_number_of_workers_and_resumes(tmp_path: Path) -> None:
     bench = short_bench(laws=("scct", "jacobian-transpose"))
     axes = [range_axis("backlash=0deg..2deg:2"), range_axis("kp=1000..6000:3")]

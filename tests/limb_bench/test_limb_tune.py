@@ -68,12 +68,14 @@ def test_the_nominal_plant_is_that_of_the_issue(flaws: LimbFlaws) -> None:
     assert (flaws.control_rate, flaws.encoder_counts, flaws.delay) == (200.0, 400, 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("every", first_fast([6, 3]))
 @pytest.mark.parametrize("law", LAWS)
 def test_no_law_limit_cycles_at_its_recommended_gains(limb: BenchLimb, flaws: LimbFlaws, law: str, every: int) -> None:
     assert swing(limb, stored(law)[0], flaws, every=every) <= 0.0005
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", first_fast(["scct", "jacobian-transpose", "operational-space"]))
 def test_a_law_limit_cycles_beyond_its_limit(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     settings, found = stored(law)
@@ -178,13 +180,8 @@ def test_an_unknown_law_is_refused_before_anything_runs(limb: BenchLimb, flaws: 
         tune(limb, ["scct", "nosuch"], flaws)
 
 
-ONE_LAW = "jacobian-transpose"
-"""Found again wherever slow tests run; the others are `long`."""
-
-
-@pytest.mark.parametrize(
-    "law", [pytest.param(law, marks=pytest.mark.slow if law == ONE_LAW else pytest.mark.long) for law in LAWS]
-)
+@pytest.mark.long
+@pytest.mark.parametrize("law", LAWS)
 def test_the_procedure_finds_the_stored_limit_again(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     found = stored(law)[1]
     time = min(DAMPING_TIMES, key=lambda each: abs(each - found.kd / found.kp))
@@ -206,7 +203,7 @@ def test_a_tuning_does_not_depend_on_the_number_of_workers(limb: BenchLimb, flaw
     Draft202012Validator(schema_of("limb tune")).validate(json.loads(json.dumps(alone)))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_an_edge_lies_between_its_two_witnesses(limb: BenchLimb, flaws: LimbFlaws) -> None:
     from dataclasses import asdict
 

@@ -65,6 +65,7 @@ def at(opening: FeasibleRelaxation, value: float) -> tuple[str, ...]:
     return (f"{opening.key}={value} {opening.unit}".rstrip(),)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [STEEP, WEAK, SHORT])
 def test_every_opening_is_feasible_and_infeasible_one_step_before(case: Case, steep: InfeasibilityExplanation) -> None:
     found = steep if case == STEEP else openings_of(case)
@@ -107,7 +108,7 @@ def test_openings_are_overrides_as_a_user_writes_them(case: Case) -> None:
         assert changed.document != task.document
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_hold_added_where_it_is_told_opens_the_board_and_no_other_place_does() -> None:
     found = openings_of(GAP, spacing=0.1524).places
     assert found is not None and found.complete and found.openings
@@ -217,6 +218,7 @@ def test_the_command_prints_the_openings_after_the_proof(
     assert "any one of these" not in short and "infeasible:" in short
 
 
+@pytest.mark.slow
 def test_the_json_has_the_openings(capfd: pytest.CaptureFixture[str], steep: InfeasibilityExplanation) -> None:
     code, out, _ = run(capfd, *words_of(STEEP, "--json"))
     told = json.loads(out)

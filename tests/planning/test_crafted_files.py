@@ -80,6 +80,7 @@ def test_a_macro_that_the_task_has_not_is_refused_by_name(tmp_path: Path) -> Non
         assert all(word in told_words for word in words), (name, said)
 
 
+@pytest.mark.slow
 def test_a_checkpoint_that_the_search_cannot_have_is_refused_by_name(tmp_path: Path) -> None:
     profile, kept = tmp_path / "small.toml", tmp_path / "kept.json"
     text = (Path(sys.modules[load_profile.__module__].__file__ or "").parent / "data" / "default.toml").read_text()
@@ -133,7 +134,7 @@ def test_a_checkpoint_that_the_search_cannot_have_is_refused_by_name(tmp_path: P
         assert key == "best_fitness" or key in said
 
 
-@pytest.mark.parametrize("examples", [40, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("examples", [10, pytest.param(1000, marks=pytest.mark.long)])
 def test_any_code_gene_or_index_is_answered_or_refused_by_every_way_in(tmp_path: Path, examples: int) -> None:
     done = subprocess.run(
         [sys.executable, str(BY_HAND), str(tmp_path), str(examples)], capture_output=True, text=True, check=False

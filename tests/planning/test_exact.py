@@ -83,6 +83,7 @@ def test_the_ladder_needs_thirty_actions_and_h_forty_one() -> None:
 SMALL_BUDGETS = {"max_checks": 60_000, "max_evaluations": 3_000, "max_stances": 40_000}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", PLANNERS)
 @pytest.mark.parametrize("board", ["ladder", "random-20-1", "random-20-2", "random-40-4"])
 def test_no_planner_beats_the_optimum(planner: str, board: str) -> None:
@@ -123,6 +124,7 @@ def test_running_out_of_memory_is_a_result_with_a_bound() -> None:
     assert result.furthest is not None and result.check().ok
 
 
+@pytest.mark.slow
 def test_an_interrupt_is_a_result_with_a_bound() -> None:
     def interrupt(_: object) -> None:
         raise KeyboardInterrupt

@@ -195,6 +195,7 @@ COSTLY = ("circle", "four limbs", "two hangs on a ring")
 """Walks whose bounds take seconds."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", first_fast(sorted(WALKS, key=lambda name: name in COSTLY), len(WALKS) - len(COSTLY)))
 def test_the_relaxed_bound_falls_by_at_most_one_an_action(name: str) -> None:
     task, overrides = WALKS[name]
@@ -224,6 +225,7 @@ def looks_of(problem: CompiledProblem) -> int:
     return len(looks)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "share"), first_fast([("atomic", 0.3), *product(("circle", "four limbs"), (0.3, 0.8))])
 )
@@ -246,6 +248,7 @@ def test_a_bound_that_ran_out_of_time_is_lower_and_falls_by_at_most_one_an_actio
     assert lower or share > 0.5, "it was stopped too late to be one"
 
 
+@pytest.mark.slow
 def test_the_exact_planner_keeps_to_its_time_where_bound_and_stances_are_costly() -> None:
     task = load_task("gecko-climb")
     plan_exact(load_task("h", (NO_HANGS, "step.length=3in")))  # compiles what it needs
@@ -268,6 +271,7 @@ def test_bound_and_dominance_change_no_answer(name: str) -> None:
             assert seen.exhausted == (plain.length is None)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", first_fast(["held again", "atomic", "circle"], 2))
 def test_the_relaxed_bound_is_below_what_is_left_of_an_optimal_plan(name: str) -> None:
     task, overrides = WALKS[name]

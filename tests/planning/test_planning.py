@@ -63,6 +63,7 @@ def test_plans_without_hangs_never_hang(name: str) -> None:
     assert int((replayed.stances["hold"][:, :n] >= 0).sum(axis=1).min()) >= 2
 
 
+@pytest.mark.slow
 def test_the_same_seed_gives_the_same_plan_on_any_number_of_threads() -> None:
     task = load_task("circle")
     plans = [plan_genetic(task, seed=5, threads=threads).plan.to_json() for threads in (1, 2, 4)]
@@ -84,6 +85,7 @@ def whole() -> PlanResult:
     return plan_genetic(load_task("h", ("rules.max_hangs=0",)), seed=2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dies_at", first_fast([30, 110, 3, 95]))
 def test_a_killed_run_resumes_to_the_plan_of_the_undisturbed_run(
     dies_at: int, whole: PlanResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -273,11 +275,13 @@ def test_the_default_profile_solves_every_board_in_twenty_of_twenty_seeds(
     assert all(result.check().reached for result in results)
 
 
+@pytest.mark.slow
 def test_every_task_can_be_posed() -> None:
     for name in task_names():
         assert len(pose_problem(load_task(name)).problem.actions) > 5
 
 
+@pytest.mark.slow
 def test_islands_find_the_same_plan_on_any_number_of_workers() -> None:
     task = load_task("ladder", ("rules.max_hangs=0",))
     plans = [

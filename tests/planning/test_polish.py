@@ -65,6 +65,7 @@ def test_toward_is_admissible_and_consistent_on_random_walks(name: str, seed: in
     assert np.all(bounds[children.parent] <= 1.0 + after)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "rules"), [*TASKS, ("patch-walk", ())])
 def test_a_beam_finds_a_plan_that_replays(name: str, rules: tuple[str, ...]) -> None:
     result = plan_beam(load_task(name, rules), width=200)
@@ -129,6 +130,7 @@ def test_auto_says_why_and_finds_a_plan(name: str, rules: tuple[str, ...]) -> No
     assert ("prove" in result.reason) == (rules == (NO_HANGS,))
 
 
+@pytest.mark.slow
 def test_a_hybrid_out_of_memory_has_a_plan_with_a_gap(tmp_path: Path) -> None:
     result = plan_hybrid(load_task("h", ("rules.max_hangs=1",)), max_stances=20_000, max_evaluations=30_000)
     assert result.status == "bounded" and result.check().reached

@@ -130,6 +130,7 @@ def test_an_exact_search_that_proves_infeasibility_sees_as_many_stances() -> Non
     assert set(reach.never_used) >= {21, 22}, "the top is out of reach"
 
 
+@pytest.mark.slow
 def test_a_goal_is_first_met_after_as_many_actions_as_the_shortest_plan_has(ladder: Reach) -> None:
     assert ladder.goal_reached and ladder.goals[-1].first_step == 30
     assert ladder.without_hangs and "at most 0 hangs" in ladder.model
@@ -255,6 +256,7 @@ def test_what_was_seen_is_told_when_memory_time_or_patience_end() -> None:
     assert stopped.places.columns["stances"].sum() == stopped.stances > 1
 
 
+@pytest.mark.slow
 def test_a_walker_has_a_map_of_margins_and_steps_alone() -> None:
     task = load_task("patch-walk", ("step.length=80mm", "step.angle=30deg"))
     reach = find_reach(task, max_stances=20_000)
@@ -323,7 +325,7 @@ def test_bad_input_is_named_before_any_work(words: list[str], message: str, capf
     assert message in capfd.readouterr().err
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("board", ["ladder", "modified-ladder", "h", "across", "circle"])
 def test_the_five_boards_are_seen_to_the_end(board: str) -> None:
     reach = find_reach(load_task(board, ("step.length=1in", "step.angle=15deg")))

@@ -30,6 +30,7 @@ def run(rival: str, name: str, overrides: tuple[str, ...], **options: Any) -> Pl
     return find_planner(rival)(load_task(name, overrides), **options)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("rival", RIVALS)
 @pytest.mark.parametrize("name", first_fast(["ladder", "h", "across", "patch-walk", "gecko-climb"], 4))
 def test_a_rival_finds_a_plan_that_replays_to_the_goal(rival: str, name: str) -> None:

@@ -52,6 +52,7 @@ def test_sizes_come_back_from_their_own_numbers(seed: int) -> None:
     assert found.sizes.radius == pytest.approx(sizes.radius, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_rivals_with_more_free_sizes_fit_too_and_other_readings_do_not() -> None:
     rivals = {(one.family.name, one.family.reading): one for one in fit_families(seeds=range(4))}
     ours = rivals["equal circles, neighbouring tips", OURS]

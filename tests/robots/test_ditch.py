@@ -195,6 +195,7 @@ def test_every_slide_of_a_crossing_holds_and_it_ends_behind_the_ditch(seed: int)
             assert np.ptp(slide.way[:, 2]) < 1e-12
 
 
+@pytest.mark.slow
 def test_no_row_of_slides_is_shorter() -> None:
     """Beside a breadth-first search over places of 2 mm."""
     rng = np.random.default_rng(5)

@@ -46,6 +46,7 @@ def mechanism(a: np.ndarray, b: np.ndarray, shortest: float, longest: float) -> 
     return TwoFrames(a, b, shortest, longest, 0.9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("theta", "area"), [(-15, 4.78), (0, 168.3), (10, 401.2), (20, 596.3), (40, 1402.6)])
 @pytest.mark.parametrize("guard", [None, 0.9, 1.0])
 def test_areas_are_those_of_a_grid_count(theta: float, area: float, guard: float | None) -> None:

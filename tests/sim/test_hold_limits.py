@@ -101,6 +101,7 @@ def test_a_hold_gives_way_to_a_pull_outside_its_direction(lean: float, breaks: b
         assert "from its direction" in other.truth().broken[0].why
 
 
+@pytest.mark.slow
 def test_a_climb_on_a_hold_that_is_too_weak_ends_with_its_cause() -> None:
     """Once a robot of 40 N climbed past a hold of 1 N."""
     work = open_work("ladder-hand")
@@ -119,6 +120,7 @@ def test_a_climb_on_a_hold_that_is_too_weak_ends_with_its_cause() -> None:
     assert run.trace.notes["broken"][0]["hold"] == grabbed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("direction", "breaks"), [(90.0, True), (-90.0, False)])
 def test_a_hold_gives_way_to_a_hook_that_pulls_outside_its_direction(direction: float, breaks: bool) -> None:
     """A hook has no jaws: what it pulls is the sum of its contacts, which is downwards and to a side on a ladder."""

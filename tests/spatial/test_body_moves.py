@@ -90,6 +90,7 @@ def moves(name: str) -> list[Any]:
     return [task, *ways]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", GOALS)
 def test_gaps_of_a_move_are_the_least_on_its_way(name: str) -> None:
     task, *ways = moves(name)

@@ -479,6 +479,7 @@ def first_regrab(name: str) -> tuple[SpatialTask, Regrab]:
     return task, next(motion for motion in Course.of(task, plan).motions if isinstance(motion, Regrab))
 
 
+@pytest.mark.slow
 def test_a_foot_that_comes_down_beside_its_stone_finds_it() -> None:
     """A stone that truly lies its radius and 2 mm aside: the ground there is far deeper, and a foot would stand on it."""
     task, motion = first_regrab("rubble-hexapod")
@@ -608,7 +609,7 @@ def test_a_robot_whose_holds_all_give_way_ends_with_a_reason(strength: float) ->
     assert run.broken
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_hexapod_goes_up_its_chimney_to_the_end() -> None:
     """Feet that press both walls with nine tenths of the torques: one that leaves its wall as it is loaded would end it."""
     task = load_task("chimney-hexapod")
@@ -650,6 +651,7 @@ def test_a_start_that_bears_less_in_reserve_than_runs_like_is_planned_from_all_t
     ]
 
 
+@pytest.mark.slow
 def test_a_plan_along_a_surface_is_rehearsed_and_stays_where_it_goes_well() -> None:
     """This one passes 3 mm from the tube."""
     task, notes = load_task("scene-tube"), []
@@ -658,7 +660,7 @@ def test_a_plan_along_a_surface_is_rehearsed_and_stays_where_it_goes_well() -> N
     assert check_plan(task, plan).ok and not check_plan(roomy(task), plan).ok
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_plan_that_fails_in_its_rehearsal_gives_way_to_one_that_does_not() -> None:
     """On the wall's edge two plans ask too much of a shoulder."""
     task, notes = load_task("scene-top-out"), []
@@ -667,7 +669,7 @@ def test_a_plan_that_fails_in_its_rehearsal_gives_way_to_one_that_does_not() -> 
     assert run.done, run.reason
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_no_leg_catches_the_edge_of_a_corner() -> None:
     """A plan leads a leg past the edge of this world's steel by 0.14 mm."""
     task = load_task("corners-magnet", ["world.seed=10"])

@@ -80,6 +80,7 @@ def test_a_brake_holds_what_its_motor_can_give_and_no_more(share: float) -> None
     assert (moved < 1e-4) == (share < 1.0), moved
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", LOCKABLE)
 def test_a_robot_with_a_folded_limb_weighs_the_same_and_its_course_is_the_whole_robots(name: str) -> None:
     """Tips and centre of mass of the planned stances are those of the whole robot in the widened ones."""
@@ -132,6 +133,7 @@ def test_a_robot_of_one_limb_is_left_without_any() -> None:
     assert without_limb(left, chains.limb_names[1], places(1)) is None
 
 
+@pytest.mark.slow
 def test_a_joint_whose_sensor_fails_is_locked_and_the_robot_goes_on_with_its_other_limbs() -> None:
     """The clamp triped, in the swing of another limb: that limb goes back, the one with the joint is folded, two are left."""
     task, plan = planned("handrails-triped", "goal.along_min=3 m", need=0.2)
@@ -145,7 +147,7 @@ def test_a_joint_whose_sensor_fails_is_locked_and_the_robot_goes_on_with_its_oth
     assert run.report.findings[-1].where == "A_2" and run.report.ending == ""
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(("kind", "where"), [("dead", "LR_2"), ("stuck", "RF_3")])
 def test_a_hexapod_goes_on_with_five_legs(kind: str, where: str) -> None:
     task, plan = planned("rubble-hexapod", "goal.along_min=0.4 m")
@@ -164,6 +166,7 @@ def test_joints_without_brakes_end_the_run_as_before() -> None:
     assert run.report.ending == "held" and not run.report.replans
 
 
+@pytest.mark.slow
 def test_where_a_hold_is_gone_another_one_near_it_is_taken() -> None:
     """While the body moves a grip breaks that bears a weight of 100 g: once the run ended there."""
     task, plan = planned("wall-gripper", "goal.along_min=0.4 m", need=0.2)
@@ -180,6 +183,7 @@ def test_where_a_hold_is_gone_another_one_near_it_is_taken() -> None:
     assert all(one.hold != hold for one in run.report.motions if one.start > lost.start)
 
 
+@pytest.mark.slow
 def test_a_start_from_there_names_the_holds_of_the_limbs_that_are_left() -> None:
     task, plan = planned("handrails-triped", "goal.along_min=1 m", need=0.2)
     at = Course.of(task, plan).motions[1].start
@@ -192,6 +196,7 @@ def test_a_start_from_there_names_the_holds_of_the_limbs_that_are_left() -> None
     }
 
 
+@pytest.mark.slow
 def test_a_foot_that_slides_off_an_icy_stone_no_longer_ends_the_walk() -> None:
     """With a twentieth of the friction of one stone the walk once ended as `drift`, in a fall."""
     task, plan = planned("stones-quadruped", "goal.along_min=0.8 m")

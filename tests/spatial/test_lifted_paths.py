@@ -131,6 +131,7 @@ def nearest_between(chains: Chains, limb: int, way: list[Floats], others: dict[i
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 def test_gaps_between_limbs_are_the_least_on_the_way(name: str) -> None:
     chains = planned(name)[0].robot.chains
@@ -145,6 +146,7 @@ def test_gaps_between_limbs_are_the_least_on_the_way(name: str) -> None:
         assert between - 0.005 <= margins["limb_limb"] + chains.limb_room <= least + NEAR
 
 
+@pytest.mark.slow
 def test_limbs_do_not_pass_through_each_other_between_the_points_that_are_solved() -> None:
     """A limb of 30 mm that swings by half a metre is past another one from one point to the next, 15 cm on."""
     chains = planned("truss-inchworm", whole=True)[0].robot.chains
@@ -177,6 +179,7 @@ def test_a_limb_is_as_far_from_the_base_as_it_comes_on_the_way(name: str) -> Non
         assert between - NEAR <= margins["limb_body"] <= least + NEAR
 
 
+@pytest.mark.slow
 def test_a_limb_is_as_far_from_a_bar_as_it_comes_on_the_way() -> None:
     """Clamber looks at the ends of links and at some places between them: never nearer than links come, and little farther."""
     task, _ = planned("truss-inchworm")

@@ -211,6 +211,7 @@ def test_a_camera_that_is_none_is_told_what_is_one(asked: str) -> None:
         pictures_of(task("wall-gripper"), asked).view(task("wall-gripper"), carried_out("wall-gripper"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 def test_stances_plans_and_motions_are_drawn(name: str, tmp_path: Path) -> None:
     replay = carried_out(name)

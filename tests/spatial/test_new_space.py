@@ -75,6 +75,7 @@ def test_solids_lie_below_every_hold() -> None:
             assert over.min() > -1e-3, kind
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("robot", "kind"), [(robot, kind) for robot, kinds in FITTING.items() for kind in kinds])
 def test_a_new_task_starts_where_every_check_holds(robot: str, kind: Kind, tmp_path: Path) -> None:
     world = tmp_path / "world.toml"
@@ -111,6 +112,7 @@ def test_a_stated_start_step_or_goal_is_kept(tmp_path: Path) -> None:
     assert data["step"]["length"] == "40mm" and data["rules"] == {"need": 0.02}
 
 
+@pytest.mark.slow
 def test_commands_write_files_that_check_likes(clamber: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     code, out, err = clamber("new", "world", "stones", "--robot", "quadruped", "--seed", "2", "-o", "w.toml", "--json")

@@ -43,7 +43,7 @@ def test_five_commands_lead_from_a_urdf_to_a_picture(
     follow_the_page(clamber, tmp_path, tmp_path, "goal={ along_min = '1 m' }")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_same_commands_do_with_the_model_of_example_robot_data(
     clamber: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -58,7 +58,7 @@ def test_the_page_has_the_limbs_of_every_model_of_the_table() -> None:
 
 
 @installed
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", MODELS)
 def test_public_models_are_imported_with_their_limbs_or_refused_with_a_reason(name: str) -> None:
     row = PAGES.row_of(name, MODELS[name])
@@ -69,7 +69,7 @@ def test_public_models_are_imported_with_their_limbs_or_refused_with_a_reason(na
 
 
 @installed
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", [name for name in MODELS if name.endswith(".urdf")])
 def test_public_models_have_the_tips_and_weights_that_pinocchio_has(name: str, tmp_path: Path) -> None:
     found = PAGES.import_model(MODELS[name], tmp_path / "robot.toml")

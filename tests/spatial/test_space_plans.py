@@ -79,6 +79,7 @@ def test_the_bodys_pose_is_the_sum_of_the_plans_moves_along_all_six_axes(name: s
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_poses_that_differ_in_height_or_tilt_alone_are_told_apart_on_the_map() -> None:
     it = task("wall-gripper", "step.tilt=10deg", "step.tilts=1")
     seen = find_reach(it, max_stances=3_000)

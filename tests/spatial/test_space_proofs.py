@@ -65,6 +65,7 @@ def whole_space() -> tuple[SpatialProblem, Any, Any, Any]:
         left = np.minimum(left, through)
 
 
+@pytest.mark.slow
 def test_no_bound_is_above_the_true_distance() -> None:
     problem, every, _, left = whole_space()
     assert len(every) > 500 and np.isfinite(left[0])
@@ -137,6 +138,7 @@ def test_quick_verdicts_are_those_of_whole_judgements(name: str) -> None:
     assert 0.05 < (quick < 0).mean() < 0.95
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("key", "stated", "least", "most"),
     [("torque_share", "0.1", 0.1, 0.5), ("stretch", "0.7", 0.7, 0.75), ("limb_room", "120 mm", 100.0, 120.0)],

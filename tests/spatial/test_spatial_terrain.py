@@ -57,6 +57,7 @@ def heights(**more: Any) -> dict[str, Any]:
     return {"kind": "heights", "file": "map.npy", "size": ["3 m", "2 m"], "spacing": "100 mm", "radius": "15 mm"} | more
 
 
+@pytest.mark.slow
 def test_holds_lie_on_a_height_map_with_its_normals_and_their_spacing(tmp_path: Path) -> None:
     np.save(tmp_path / "map.npy", wavy_map())
     world = read(tmp_path, heights())
@@ -72,6 +73,7 @@ def test_holds_lie_on_a_height_map_with_its_normals_and_their_spacing(tmp_path: 
     assert not np.array_equal(read(tmp_path, heights(seed=1)).places, places)
 
 
+@pytest.mark.slow
 def test_steep_parts_of_a_height_map_have_no_holds(tmp_path: Path) -> None:
     np.save(tmp_path / "map.npy", 3.0 * wavy_map())
     steep = read(tmp_path, heights(slope="30 deg"))
@@ -79,6 +81,7 @@ def test_steep_parts_of_a_height_map_have_no_holds(tmp_path: Path) -> None:
     assert len(steep.holds) < len(read(tmp_path, heights(slope="80 deg")).holds)
 
 
+@pytest.mark.slow
 def test_png_csv_and_npy_are_the_same_map(tmp_path: Path) -> None:
     grey = np.round(65535 * (wavy_map() + 0.1) / 0.2).astype(np.uint16)
     Image.fromarray(grey).save(tmp_path / "map.png")
@@ -131,6 +134,7 @@ def sphere(radius: float) -> Any:
     return trimesh.creation.icosphere(4, radius)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("end", ["stl", "obj", "ply"])
 def test_holds_are_all_over_a_mesh_and_distances_are_those_of_a_ball(tmp_path: Path, end: str) -> None:
     sphere(500.0).export(tmp_path / f"ball.{end}")
@@ -181,6 +185,7 @@ def test_a_cloud_has_holds_with_the_normals_of_its_planes(tmp_path: Path, end: s
     assert np.median(np.einsum("ij,ij->i", slopes, world.normals)) > math.cos(math.radians(2.0))
 
 
+@pytest.mark.slow
 def test_a_task_keeps_its_terrain_without_the_file_and_overrides_reach_it(tmp_path: Path) -> None:
     np.save(tmp_path / "map.npy", 0.3 * wavy_map())
     path = write_world(tmp_path, heights(spacing="140 mm", radius="40 mm"))
@@ -267,6 +272,7 @@ def test_what_is_no_mesh_is_refused_by_file_and_reason(tmp_path: Path, name: str
         read_mesh(tmp_path / name)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changed", "key", "words"),
     [
@@ -289,6 +295,7 @@ def test_a_terrain_with_a_mistake_is_refused_by_its_key(
     assert refused.value.key == key
 
 
+@pytest.mark.slow
 def test_a_command_makes_a_world_of_each_kind_of_file(
     clamber: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -111,6 +111,7 @@ def shared(law: BodyLaw, base: np.ndarray, jacobians: list[np.ndarray]) -> np.nd
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("components", [3, 6])
 @pytest.mark.parametrize("name", BODY_LAWS)
 def test_at_rest_torques_and_contacts_balance_the_weight(name: str, components: int) -> None:

@@ -114,6 +114,7 @@ def exact(name: str) -> tuple[Support, float]:
     return cone_support(mu, pull, most), most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", contact_names())
 def test_a_polytope_lies_within_its_exact_body_and_covers_most_of_it(name: str) -> None:
     contact = shipped(name)

@@ -94,6 +94,7 @@ def test_no_verdict_differs_from_that_of_another_solver(machine: str, n: int) ->
     assert 0.02 * n < feasible < 0.98 * n
 
 
+@pytest.mark.slow
 def test_no_verdict_differs_where_a_robot_stands_in_its_own_plane() -> None:
     """Forces in the plane and across it hang together by rounding alone there, which is no number to divide by."""
     robot: Any = load_task("truss-inchworm").robot

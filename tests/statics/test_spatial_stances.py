@@ -308,6 +308,7 @@ def follow(chains: Chains, limb: int, posture: Floats, base: Floats, places: Flo
     return np.array(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("machine", ["grippers", "feet"])
 def test_a_path_that_is_followed_leads_to_the_posture_of_the_stance_behind_it(machine: str) -> None:
     """Of two postures that a limb has for most places, beside its hip, it comes to the one that it is to have there.

@@ -286,6 +286,7 @@ def winding(point: Any, polygon: Any) -> int:
     return int(round(float(((turns + math.pi) % math.tau - math.pi).sum() / math.tau)))
 
 
+@pytest.mark.slow
 def test_distances_of_polygons_are_those_of_many_points_on_and_in_them() -> None:
     rng = np.random.default_rng(3)
     touching = 0

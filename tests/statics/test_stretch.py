@@ -102,6 +102,7 @@ def most_stretched(task: Any) -> float:
     return most
 
 
+@pytest.mark.slow
 def test_plans_keep_limbs_bent() -> None:
     """A quadruped, whose hips lie beside its legs."""
     goal = "goal={ along_min = '0.5 m' }"

@@ -48,6 +48,7 @@ def keeps_its_verdict(name: str, verdict: str) -> None:
     assert len({row.name for row in result.compared}) == len(result.compared)  # no number hides another
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_quick_results_of_chapter_4_keep_their_verdicts(name: str, tmp_path: Path) -> None:
     keeps_its_verdict(name, QUICK[name])
@@ -68,6 +69,7 @@ def numbers(page: Path) -> dict[str, str]:
     return {row[0].removeprefix("| "): row[1] for row in cells}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", QUICK)
 def test_the_pages_tell_todays_numbers(name: str, tmp_path: Path) -> None:
     write_markdown([told(name)], tmp_path)
@@ -174,6 +176,7 @@ def test_measured_at_one_hook_a_stiff_body_with_play_cycles_and_measured_at_both
     assert peak_to_peak(stand, kpx, True, tight) < CYCLE
 
 
+@pytest.mark.slow
 def test_trials_of_a_rung_are_the_same_wherever_they_run(tmp_path: Path) -> None:
     alone = climb_rung(BodyGains(), 3)
     assert alone.done and not alone.lost

@@ -52,6 +52,7 @@ def rows(name: str) -> Iterator[dict[str, Value]]:
         yield dict(zip(table.columns, row, strict=True))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FIGURES)
 def test_figures_of_chapter_3_keep_their_verdicts(name: str) -> None:
     result = told(name)

@@ -64,6 +64,7 @@ def test_places_are_joined_by_single_moves_only() -> None:
     }
 
 
+@pytest.mark.slow
 def test_the_narrowest_cone_of_the_ladder_parts_cones_with_a_plan_from_those_without() -> None:
     tried = dict(bisect_cone("ladder"))
     least = min(degrees for degrees, proof in tried.items() if proof.feasible)
@@ -89,6 +90,7 @@ def test_without_rotation_all_stances_are_seen_and_counted() -> None:
     assert result.numbers["own halves, offset while holding, one hang: exact search"] == "bounded"
 
 
+@pytest.mark.slow
 def test_ladders_of_other_spacings_are_planned_each() -> None:
     result = vary_spacing_over("board.spacing=18in..20in:2", "board.rung=6in..8in:2")
     assert result.numbers["marked ladders climbed"] == "2 of 2"
@@ -101,7 +103,7 @@ def test_cones_are_drawn(tmp_path: Path) -> None:
     assert (tmp_path / "cones.png").read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_front_of_h_is_complete_and_every_plan_of_it_replays() -> None:
     result = trade_length_for_torque()
     assert result.verdict == "holds"

@@ -44,7 +44,7 @@ def test_a_random_case_is_the_same_each_time_and_ends_in_reach() -> None:
         assert go(4, 0.0, start=start, way=way, feedback=2.0).off_end < 1e-3
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", OF_THE_MEASURE)
 def test_the_claims_about_the_measure_hold_on_every_random_way(name: str) -> None:
     result = HOSHINO[name]()

@@ -36,6 +36,7 @@ def test_regions_grow_by_strokes_alone_and_shrink_within_the_guard() -> None:
     assert guarded[:5] == sorted(guarded[:5]) and guarded[4:] == sorted(guarded[4:], reverse=True)
 
 
+@pytest.mark.slow
 def test_a_wide_ditch_takes_a_pivot(tmp_path: Path) -> None:
     result = OF_FRAMES["fig-5"]()
     assert result.verdict == VERDICTS["fig-5"]

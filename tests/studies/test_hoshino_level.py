@@ -31,6 +31,7 @@ def test_equation_6_gives_the_line_and_half_the_time_the_wrong_way_along_it() ->
     assert abs(equation_6(0.1, 0.05) - slope_of(0.1, 0.05)[0]) == pytest.approx(math.pi)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("legs", [3, 6])
 def test_the_plate_is_inclined_to_a_tenth_of_a_degree_and_all_legs_end_together(legs: int) -> None:
     run = incline(legs)  # type: ignore[arg-type]

@@ -64,6 +64,7 @@ def trials_of(n: int, failed: int) -> Trials[Any, Any]:
     return Trials(made.setup_of(300), n, ended)
 
 
+@pytest.mark.slow
 def test_trials_that_all_succeeded_show_what_was_measured_and_no_empty_panels() -> None:
     all_done = trials_figure(sum_up(trials_of(24, 0)))
     assert len(all_done.axes) <= 4 and "time of a climb [s]: median" in words_of(all_done)

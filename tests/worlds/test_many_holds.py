@@ -43,6 +43,7 @@ BOARDS: dict[str, Callable[[], Board]] = {
 }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BOARDS)
 def test_large_boards_are_built_soon(name: str) -> None:
     began = time.process_time()
@@ -50,6 +51,7 @@ def test_large_boards_are_built_soon(name: str) -> None:
     assert time.process_time() - began < MOST
 
 
+@pytest.mark.slow
 def test_a_board_with_a_mistake_in_every_hold_is_refused_soon() -> None:
     began = time.process_time()
     with pytest.raises(SpecError, match="is no unit of length") as refused:

@@ -31,6 +31,7 @@ def farthest_reach() -> float:
     return float(np.sqrt(radius**2 - POINT[1] ** 2))
 
 
+@pytest.mark.slow
 def test_the_part_of_a_way_where_a_point_can_be_held_ends_where_the_arm_is_stretched() -> None:
     found = reachable_part(hoshino(), way(41), POINT)
     assert len(found.parts) == 1
@@ -39,6 +40,7 @@ def test_the_part_of_a_way_where_a_point_can_be_held_ends_where_the_arm_is_stret
     assert last == pytest.approx(farthest_reach(), abs=2e-5)
 
 
+@pytest.mark.slow
 def test_a_line_that_goes_along_with_the_body_can_be_reached_as_far_as_one_likes() -> None:
     """At each pose its own place, always beside the body; and a line that runs away ends where the stretched arm does."""
     poses = way(21)

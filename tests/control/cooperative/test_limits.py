@@ -115,7 +115,7 @@ def test_no_run_to_a_target_exceeds_a_limit(freedoms: Freedoms) -> None:
         assert worst <= ROUNDING, f"target {k} {target}"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("part", range(4))
 def test_no_run_to_any_of_a_thousand_targets_exceeds_a_limit(part: int) -> None:
     for k, target in enumerate(targets(1000)):
@@ -137,6 +137,7 @@ def closest_to_far(freedoms: Freedoms) -> list[Reach]:
     return [search.find(START, target) for target in FAR]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tool_speed", first_fast([0.1, 0.05, 0.4]))
 @pytest.mark.parametrize("freedoms", ["arm", "levelling", "all"])
 def test_a_run_comes_to_rest_where_the_search_finds_the_closest_reachable_place(
@@ -226,6 +227,7 @@ def test_no_grid_point_of_the_arm_is_nearer_than_the_search_finds() -> None:
     assert 5 < reached < 35
 
 
+@pytest.mark.slow
 def test_a_start_beyond_a_limit_is_named() -> None:
     robot = hoshino()
     stance = PlantedFeet(robot=robot, support="delta", pose=START[:6])

@@ -80,6 +80,7 @@ def test_a_unix_socket_is_for_its_user_alone_and_goes_with_the_server(tmp_path: 
     assert not path.exists()
 
 
+@pytest.mark.slow
 def test_in_real_time_the_plant_moves_on_by_itself() -> None:
     with toy_server(real_time=True) as (address, server), RemoteHardware(address) as remote:
         remote.reset(np.zeros(2))
@@ -92,6 +93,7 @@ def test_in_real_time_the_plant_moves_on_by_itself() -> None:
     assert not server.stops
 
 
+@pytest.mark.slow
 def test_who_pauses_may_be_late() -> None:
     with toy_server(real_time=True) as (address, server), RemoteHardware(address) as remote:
         remote.reset(np.zeros(2))
@@ -105,6 +107,7 @@ def test_who_pauses_may_be_late() -> None:
     assert not server.stops
 
 
+@pytest.mark.slow
 def test_who_is_late_finds_the_plant_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
     stopped, looked = threading.Event(), threading.Event()
     monkeypatch.setattr("clamber.execution.link.served_plant.HELD", 0.1)
@@ -239,6 +242,7 @@ def test_a_server_that_is_lost_on_the_way_ends_the_run_with_a_reason(answer: byt
         remote.close()
 
 
+@pytest.mark.slow
 def test_a_plant_whose_ticks_stand_still_is_lost_though_samples_come() -> None:
     def go_on(channel: Channel) -> None:
         number = 3

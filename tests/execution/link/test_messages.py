@@ -95,6 +95,7 @@ def test_commands_come_back_to_the_last_bit(volts: list[float]) -> None:
     assert unpack_numbers(Kind.COMMAND, pack_numbers(sent), len(volts)).tobytes() == sent.tobytes()
 
 
+@pytest.mark.slow
 @given(st.text(max_size=60), st.booleans(), st.floats(1e-6, 1e6))
 def test_a_welcome_comes_back_with_its_names_cut(name: str, real_time: bool, period: float) -> None:
     about = replace(ABOUT, robot=name, real_time=real_time, period=period)
@@ -170,6 +171,7 @@ def test_junk_is_refused_or_waited_for(pieces: list[bytes]) -> None:
         assert error.problem and error.allowed
 
 
+@pytest.mark.slow
 @settings(max_examples=1000)
 @given(st.lists(st.tuples(st.integers(0, len(stream()) - 1), st.integers(1, 255)), min_size=1, max_size=4))
 def test_bits_that_turn_over_on_the_way_are_noticed(turned: list[tuple[int, int]]) -> None:

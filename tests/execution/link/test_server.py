@@ -318,6 +318,7 @@ def test_a_pause_is_held_by_the_guard_and_ends_with_the_next_command(load: float
     np.testing.assert_allclose(robot.q, START, atol=1e-3)
 
 
+@pytest.mark.slow
 def test_no_pause_is_for_ever() -> None:
     def script(address: Address) -> Iterator[float]:
         driver = next(placed(address))

@@ -54,6 +54,7 @@ def test_a_plan_is_laid_out_from_where_the_robot_stands() -> None:
     assert course.length == pytest.approx(0.08, abs=1e-12) and not course.done
 
 
+@pytest.mark.slow
 def test_a_planned_walk_comes_to_the_plans_end() -> None:
     codes = [FORTH] * 3 + [SWAP] + [FORTH] * 3 + [SWAP] + [TURN, LEFT, SWAP, LEFT, TURN]
     replay = replayed(codes)

@@ -51,6 +51,7 @@ class Watched(SpringsWalker):
         self.kept.append((self.time, self.truth().pose, self.arm.copy()))
 
 
+@pytest.mark.slow
 def test_the_tool_comes_stays_and_leaves_within_range_and_speed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
     walker, plant = stood(flat, noise=0.0)
@@ -115,6 +116,7 @@ def test_the_tool_goes_along_a_line_evenly_with_the_way(monkeypatch: pytest.Monk
             assert np.linalg.norm(tool_of(pose, joints) - place) < 4e-3
 
 
+@pytest.mark.slow
 def test_the_reach_that_is_told_is_that_of_the_stretched_arm() -> None:
     walker, _ = stood(flat, noise=0.0)
     assert ARM is not None
@@ -138,6 +140,7 @@ def test_a_point_out_of_reach_is_refused_with_what_is_missing() -> None:
     assert refused.value.margin == pytest.approx(ARM.out + sum(ARM.links) - away, abs=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("uphill", first_fast([BEST, None]))
 def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -> None:
     """The springs give 0.9 mm under a frame that carries alone; without reckoning with it, every step would add as much."""
@@ -151,7 +154,7 @@ def test_feet_that_sink_in_do_not_raise_what_is_believed(uphill: float | None) -
     assert walker.pose[2] - walker.plant.truth().pose[2] - off == pytest.approx(0.0, abs=1.5e-3)  # type: ignore[union-attr]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: pytest.MonkeyPatch) -> None:
     """A point higher than the arm's shoulder: the plate comes up to it, within its room, faded in and out; the tool stays."""
     monkeypatch.setattr("spring_walks.SpringsWalker", Watched)
@@ -211,6 +214,7 @@ def test_the_tool_has_the_plates_height_only_while_a_frame_slides(monkeypatch: p
     assert told["height"].measures[1] > 1.02 * told["arm"].measures[1]  # it takes two slides to come up
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("served", first_fast(["height", "arm"]))
 def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plate_as_high_as_legs_allow(
     served: Literal["arm", "height"],
@@ -228,6 +232,7 @@ def test_the_reach_with_the_plates_height_is_that_of_the_stretched_arm_on_a_plat
     np.testing.assert_allclose(hold.reach, [(1.0 - along, 1.0 + along)], atol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("uphill", first_fast([BEST, None, -BEST, 0.0]))
 def test_the_rooms_that_are_rehearsed_are_those_of_the_walk(uphill: float | None) -> None:
     ground = flat if uphill is None else slope(math.radians(6.0), uphill)

@@ -186,6 +186,7 @@ def test_a_robot_that_is_pushed_over_is_told_to_fall() -> None:
         walker.wait(10.0)
 
 
+@pytest.mark.slow
 def test_motions_on_flat_ground_keep_the_feet_that_stand_where_they_are() -> None:
     walker, plant = stood(flat)
     for k in range(3):

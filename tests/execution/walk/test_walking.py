@@ -36,6 +36,7 @@ def worst_tilt(report: WalkReport, trace: WalkTrace) -> float:
     return math.degrees(trace.tilt()[trace.time > report.prepared].max())
 
 
+@pytest.mark.slow
 def test_a_walk_on_the_flat_comes_to_its_place_by_dead_reckoning() -> None:
     report, trace, plant = walk(flat, ahead(0.15))
     assert report.done
@@ -119,6 +120,7 @@ def test_ground_that_is_missing_shortens_the_step_and_then_ends_the_walk() -> No
     assert feet[:, 1].max() < 0.33 + 1e-6
 
 
+@pytest.mark.slow
 def test_the_log_of_a_walk_is_the_walk() -> None:
     report, trace, _ = walk(flat, ahead(0.05))
     back = WalkTrace.from_log(trace.to_log())
@@ -139,6 +141,7 @@ def test_the_log_of_a_fall_keeps_that_too_few_feet_stand() -> None:
     np.testing.assert_array_equal(back.true_margin, trace.true_margin)
 
 
+@pytest.mark.slow
 def test_the_same_seed_walks_the_same_walk() -> None:
     rows: list[Floats] = []
     for _ in range(2):

@@ -44,6 +44,7 @@ def test_a_climb_went_wrong_with_the_grab_that_failed_or_the_one_that_led_there(
     assert grab_at_fault(plan, ClimbReport()) is None
 
 
+@pytest.mark.slow
 def test_a_limb_never_takes_a_hold_that_is_barred_to_it() -> None:
     task = climbing_task(load_task("ladder"))
     free = find_planner("beam")(task, seconds=60.0).plan

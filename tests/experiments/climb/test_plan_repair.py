@@ -41,6 +41,7 @@ def falls_at(limb: str | None, hold: int | None, unlucky: Callable[[int], bool])
     return climbs
 
 
+@pytest.mark.slow
 def test_what_fails_is_done_without_and_what_came_before_stays(climb: tuple[LimbedTask, Plan]) -> None:
     task, plan = climb
     grabs = [step for step, action in enumerate(plan.actions, 1) if action.kind == "grab"]

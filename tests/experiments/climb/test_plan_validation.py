@@ -16,6 +16,7 @@ from clamber.planning.problem.plan_source import open_plan
 from clamber.trials.dynamics import RunEvents
 
 
+@pytest.mark.slow
 def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
     opened = open_plan("ladder-hand")
     task = climbing_task(opened.task)
@@ -57,7 +58,7 @@ def test_each_search_after_the_first_is_told_with_what_it_is_for(monkeypatch: py
     ]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_every_candidate_may_be_asked_for_and_the_one_that_does_best_is_taken() -> None:
     asked: list[Plan] = []
 

@@ -35,6 +35,7 @@ def steps_of_grabs(plan: Plan) -> list[int]:
     return [step for step, action in enumerate(plan.actions, 1) if action.kind == "grab"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("back", [1, 3])
 def test_another_end_keeps_what_comes_before_and_does_without_the_grab(back: int) -> None:
     task, plan = found("ladder")
@@ -71,12 +72,14 @@ def test_limbs_hold_by_the_grabs_that_they_made_last() -> None:
             assert all(one.limb != grab.limb or one.kind == "move" for one in plan.actions[at:step])
 
 
+@pytest.mark.slow
 def test_a_plan_without_doubts_is_not_mended() -> None:
     task, plan = found("ladder")
     assert doubtful_grabs(lay_course(task, plan)) == []
     assert repaired(task, plan, PLANNING_MARGINS[0], 60.0) is plan
 
 
+@pytest.mark.slow
 def test_hooks_that_lack_what_is_wished_put_the_grab_in_doubt(monkeypatch: pytest.MonkeyPatch) -> None:
     """With a wish that no stance meets, every grab is in doubt."""
     task, plan = found("ladder")
@@ -86,7 +89,7 @@ def test_hooks_that_lack_what_is_wished_put_the_grab_in_doubt(monkeypatch: pytes
     assert doubtful_grabs(course) == steps_of_grabs(plan)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_the_plan_for_h_loses_its_doubtful_grab() -> None:
     task, plan = found("h", "exact")
     doubtful = doubtful_grabs(lay_course(task, plan))

@@ -35,6 +35,7 @@ def test_the_key_that_decides_is_named_and_no_other(rule: str) -> None:
     }
 
 
+@pytest.mark.slow
 def test_failures_by_chance_alone_are_seldom_blamed_on_a_key() -> None:
     wrong = 0
     for campaign in range(200):

@@ -42,6 +42,7 @@ def found(request: pytest.FixtureRequest) -> tuple[LimbedTask, Plan]:
     return task, find_planner("beam")(task, seconds=120.0).plan
 
 
+@pytest.mark.slow
 def test_a_steadied_plan_has_the_same_actions_and_ends_in_the_same_stance(found: tuple[LimbedTask, Plan]) -> None:
     task, plan = found
     codes = plan.codes(task)

@@ -35,6 +35,7 @@ LETS_GO = (300, 3)
 """The bottom limb releases, and the body goes up: two seconds of climb."""
 
 
+@pytest.mark.slow
 def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> None:
     setup, store = setup_of(*LETS_GO), tmp_path / "trials.db"
     trials = run_trials(setup, [3, 11], executor=LocalProcesses(1), store=store)
@@ -181,7 +182,7 @@ def rows(store: Path) -> dict[int, tuple[str, float]]:
     return {seed: (result, seconds) for seed, result, seconds in found}
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("stop", [signal.SIGKILL, signal.SIGINT])
 def test_trials_stopped_at_several_moments_lose_and_repeat_none(tmp_path: Path, stop: signal.Signals) -> None:
     plan, store = tmp_path / "plan.json", tmp_path / "trials.db"

@@ -46,6 +46,7 @@ print(*(one.__name__ for one in kernels), *(one.__module__ for one in kernels))
 """
 
 
+@pytest.mark.slow
 def test_beside_planning_what_climbs_alone_need_comes_first() -> None:
     told = subprocess.run([sys.executable, "-c", ALONE], capture_output=True, text=True, timeout=600)
     words = told.stdout.split()
@@ -57,6 +58,7 @@ def test_beside_planning_what_climbs_alone_need_comes_first() -> None:
     ]
 
 
+@pytest.mark.slow
 def test_after_warming_up_a_climb_loads_no_further_kernel() -> None:
     told = subprocess.run([sys.executable, "-c", CLIMB], capture_output=True, text=True, timeout=600)
     assert told.stdout.strip() == "[]", told.stderr

@@ -29,6 +29,7 @@ def runs() -> dict[tuple[str, int], FollowRun]:
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("dof", DOFS)
 def test_the_circle_is_followed_with_every_set(runs: dict[tuple[str, int], FollowRun], dof: int) -> None:
     run = runs["circle", dof]

@@ -22,6 +22,7 @@ def test_the_benchmark_is_found_by_its_name() -> None:
     assert BENCHES["hexapod"] is hexapod_rows
 
 
+@pytest.mark.slow
 def test_a_step_is_timed_for_every_set_of_freedoms() -> None:
     rows = step_rows(rounds=1, steps=20)
     aimed = [row for row in rows if row.aim is not None]

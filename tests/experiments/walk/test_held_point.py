@@ -35,7 +35,7 @@ def test_the_tool_stays_within_millimetres_while_the_robot_walks_past(uphill: fl
     assert told["held_seconds"] > 60.0
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_plate_that_is_lent_keeps_the_arm_from_being_stretched_and_stays_level() -> None:
     """Down the slope, past a point over the arm's shoulder: held on as the walk goes, with the height in slides and without it."""
     runs = {}
@@ -94,6 +94,7 @@ def test_balance_is_reckoned_with_the_arm_as_it_will_be() -> None:
     assert run.margin > 0.019
 
 
+@pytest.mark.slow
 def test_a_point_that_the_arm_cannot_reach_is_refused_before_a_step() -> None:
     walk = load_walk("slope-walk", ("hold={ x = '10 cm', y = '1.5 m', z = '0.6 m' }", "way.0.distance=20cm"))
     run = run_walk(walk, walk_flaws(walk, ()))

@@ -32,6 +32,7 @@ def test_it_finds_the_last_that_is_borne_with_few_walks(n: int, data: st.DataObj
     assert [each.value for each in found.tried] == sorted(walked, key=int)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("payload", "borne"), [("5 kg", True), ("30 kg", False)])
 def test_a_walk_is_borne_if_it_ends_in_balance(payload: str, borne: bool) -> None:
     # 30 kg at 0.59 m move the centre of mass by 160 mm, past feet of one frame, whose sides are 119 mm from the middle

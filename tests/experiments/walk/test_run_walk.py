@@ -26,6 +26,7 @@ def walked(name: str, *changes: str, **options: object) -> WalkRun:
     return run_walk(walk, walk_flaws(walk, ()), **options)
 
 
+@pytest.mark.slow
 def test_a_short_walk_over_level_ground_ends_where_it_should() -> None:
     run = walked("level-walk")
     assert run.done, run.reason
@@ -67,6 +68,7 @@ def test_a_path_of_many_places_is_walked_in_long_steps(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("uphill", first_fast([90.0, 0.0, 180.0]))
 def test_the_plate_stays_level_on_a_slope(uphill: float) -> None:
     run = walked("slope-walk", f"ground.uphill={uphill}deg")
@@ -90,6 +92,7 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
     assert abs(run.true.tilts[-1] - run.true.tilts[run.walking][0]) < math.radians(0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("uphill", first_fast([90.0, 0.0, 180.0]))
 def test_a_start_tilted_by_ten_degrees_returns_to_level(uphill: float) -> None:
     noise = read_walk_noise(named_walk_noise("usual"), ["inclinometer_offset=0deg"])

@@ -36,7 +36,7 @@ def test_struts_and_shorter_steps_walk_alike(uphill: float) -> None:
         np.testing.assert_allclose(other.pose[-1, 3:], usual.pose[-1, 3:], atol=np.radians(0.03))
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_a_walk_up_a_slope_goes_too_far_as_feet_sink_in_along_its_normal(monkeypatch: pytest.MonkeyPatch) -> None:
     """A robot that takes its feet for rigid drifts: half the ground's time constant is a third of its give, and of the drift."""
     walk = load_walk("slope-walk", ["way.0.distance=50cm"])

@@ -29,6 +29,7 @@ def trial(**changes: Any) -> WalkTrial:
     return WalkTrial(**(plain | changes))
 
 
+@pytest.mark.slow
 def test_a_trial_is_the_same_again_by_its_seed() -> None:
     walk = load_walk("level-walk", [SHORT])
     noise = WalkNoise(named_walk_noise("usual").widths | {"inclinometer_offset": 0.0})  # no calibration
@@ -40,6 +41,7 @@ def test_a_trial_is_the_same_again_by_its_seed() -> None:
     assert json.loads(json.dumps(first)) == first
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 def test_trials_are_kept_and_taken_from_their_store(tmp_path: Path) -> None:
     setup, store = WalkSetup(load_walk("level-walk", [SHORT]), named_walk_noise("none")), tmp_path / "walks.db"

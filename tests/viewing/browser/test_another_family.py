@@ -145,6 +145,7 @@ def task(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Rid
     return Ride(3)
 
 
+@pytest.mark.slow
 def test_its_plan_is_saved_as_a_page_and_as_pictures(task: Any, tmp_path: Path) -> None:
     exhibit = exhibit_of(task, task.replay())
     assert exhibit.main.steps == ("start", "to rung 1", "to rung 2", "to rung 3")

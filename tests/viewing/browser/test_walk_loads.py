@@ -62,6 +62,7 @@ def rows(columns: Log) -> list[int]:
     return [0, *middles, columns.rows - 1]
 
 
+@pytest.mark.slow
 def test_bars_of_a_logged_walk_are_the_numbers_of_its_log(film: WalkFilm, columns: Log) -> None:
     time = columns.column("time")
     for k in rows(columns):

@@ -68,6 +68,7 @@ def test_the_command_of_a_report_repeats_the_run(climb: Path, plan: Path, tmp_pa
     assert first["actions"] == second["actions"]
 
 
+@pytest.mark.slow
 def test_a_walks_report_says_where_it_was_close(walk: Path) -> None:
     page, data = (walk / "index.html").read_text(encoding="utf-8"), json.loads((walk / "run.json").read_text())
     assert f"<td>least margin of balance</td><td>{1e3 * data['margin']:.0f} mm</td>" in page
