@@ -100,7 +100,7 @@ def test_a_video_shows_all_of_a_film_in_so_many_pictures_at_most() -> None:
     assert file_name("LIBRA climbs: a / ladder!") == "libra-climbs-a-ladder"
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["ladder", "stones-quadruped"])
 def test_a_page_looks_from_where_it_is_asked_to_follows_and_saves(name: str, serve: Serve, visit: Open) -> None:
     app = serve(exhibit(name))

@@ -17,7 +17,7 @@ Open = Callable[[str], Visit]
 Serve = Callable[..., App]
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_holds_are_picked_moved_added_removed_and_saved_by_clicks(serve: Serve, visit: Open, tmp_path: Path) -> None:
     app = serve(open_exhibit(["wall-gripper"]), folder=tmp_path)
     shown, panel = visit(app.url), app.editor
@@ -53,7 +53,7 @@ def test_holds_are_picked_moved_added_removed_and_saved_by_clicks(serve: Serve, 
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_forces_are_arrows_and_margins_bars_while_a_plan_plays(serve: Serve, visit: Open) -> None:
     task = load_task("wall-gripper", ["goal={ along_min = '0.2 m' }"])
     found = plan_beam(task, width=20, threads=1)

@@ -42,7 +42,7 @@ def test_plan_plays_and_jumps(serve: Serve, visit: Open) -> None:
     assert all(url.startswith((app.place, "blob:", "data:")) for url in shown.asked)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_board_is_edited_planned_saved_and_run_by_clicks(
     serve: Serve, visit: Open, compiled: None, tmp_path: Path
 ) -> None:
@@ -96,7 +96,7 @@ def test_board_is_edited_planned_saved_and_run_by_clicks(
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, visit: Open) -> None:
     app = serve(open_exhibit(["gap"]))
     shown, board = visit(app.url), app.editor
@@ -121,7 +121,7 @@ def test_clicks_on_the_wall_add_and_remove_pegs_and_set_the_goal(serve: Serve, v
     assert shown.errors() == [] and shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: Open) -> None:
     app = serve(open_exhibit(["ladder"]))
     shown, board = visit(app.url), app.editor
@@ -158,7 +158,7 @@ def test_start_is_dragged_on_the_wall_and_its_limbs_chosen(serve: Serve, visit: 
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_ground_is_edited_and_walked_by_clicks(serve: Serve, visit: Open, tmp_path: Path) -> None:
     app = serve(open_exhibit(["slope-walk"]), folder=tmp_path)
     shown, ground = visit(app.url), app.editor
@@ -207,7 +207,7 @@ def test_ground_is_edited_and_walked_by_clicks(serve: Serve, visit: Open, tmp_pa
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["gap"]))
     shown, board = visit(app.url), app.editor
@@ -256,7 +256,7 @@ def test_bad_boards_are_told_of_and_the_page_stays(serve: Serve, visit: Open, co
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_work_is_stopped_by_a_click(serve: Serve, visit: Open, compiled: None) -> None:
     app = serve(open_exhibit(["h"]))
     shown = visit(app.url)
@@ -268,7 +268,7 @@ def test_work_is_stopped_by_a_click(serve: Serve, visit: Open, compiled: None) -
     assert shown.wrong == []
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_page_on_the_disk_needs_nothing_else(tmp_path: Path, visit: Open) -> None:
     page = tmp_path / "page.html"
     write_page(open_exhibit(["ladder-hand"]), page)

@@ -218,7 +218,7 @@ def _arrange(figure: Figure, side: float, top: float) -> dict[str, Axes]:
     height = min(TALLEST, (whole - WORDS - CURVE[0]) / top)
     rows, side_height = 2.0 * (CURVE[1] + WORDS), whole / side
     if height + WORDS >= rows:
-        figure.set_size_inches(WIDTH, side_height + height + 3.0 * WORDS)
+        figure.set_size_inches(WIDTH, side_height + height + 3.6 * WORDS)
         places = figure.subplot_mosaic(
             [["side", "side"], ["top", "tilt"], ["top", "margin"]],
             height_ratios=(side_height + WORDS, 0.5 * (height + WORDS), 0.5 * (height + WORDS)),
