@@ -251,7 +251,7 @@ def results_in(store: Path) -> int:
         return int(file.execute("SELECT count(*) FROM items WHERE result IS NOT NULL").fetchone()[0])
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("words", "first"),
     [

@@ -71,7 +71,7 @@ def test_all_that_the_readme_types_in_its_order(columns: int, encoding: str, fol
     type_all(TYPED, columns, encoding, folder)
 
 
-@pytest.mark.slow
+@pytest.mark.long
 @pytest.mark.parametrize("told", NAMED, ids=lambda told: told.text)
 def test_what_makes_a_figure_of_the_tables(told: Told, folder: Path) -> None:
     type_all([told], 60, "utf-8", folder)

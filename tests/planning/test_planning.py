@@ -42,7 +42,7 @@ def test_every_planner_finds_a_plan_that_replays_to_the_goal(planner: str) -> No
         *((name, ()) for name in QUICK),
         ("gecko-climb", ("goal.y_min=40cm",)),
         pytest.param("gecko-climb", ("goal.y_min=60cm",), marks=pytest.mark.slow),
-        pytest.param("gecko-climb", (), marks=pytest.mark.slow),
+        pytest.param("gecko-climb", (), marks=pytest.mark.long),
     ],
 )
 def test_the_genetic_planner_solves_every_task(name: str, overrides: tuple[str, ...]) -> None:
