@@ -1,6 +1,7 @@
 """Environments for reinforcement learning, and what a learner is to be held against: no torque at all, and our own controller.
 
 `python examples/09_environments.py out 10` takes ten seeds of each environment under noise; the table of docs/environments.md is that.
+A third number is how many control periods of 2.5 ms an action lasts, two without it.
 """
 
 import sys
@@ -16,6 +17,7 @@ from clamber.families.spatial.environment_baseline import carry_out
 out = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 out.mkdir(exist_ok=True)
 seeds = range(1, 1 + int(sys.argv[2] if len(sys.argv) > 2 else 1))
+ticks = int(sys.argv[3] if len(sys.argv) > 3 else 2)
 register()  # Gymnasium does so by itself where Clamber is installed
 rows = ["environment,noise,who,seed,return,progress,seconds,done"]
 
@@ -38,7 +40,7 @@ def ours(env: gymnasium.Env, seed: int) -> tuple[float, float, float, bool]:
 
 for name in ("clamber/Climb-v0", "clamber/Walk-v0"):
     for noise in ("none", "usual"):
-        env = gymnasium.make(name, noise=[noise], disable_env_checker=True)
+        env = gymnasium.make(name, noise=[noise], ticks=ticks, disable_env_checker=True)
         for act in (idle, ours):
             told = [act(env, seed) for seed in (seeds if noise == "usual" else seeds[:1])]
             totals, parts, times, done = zip(*told, strict=True)

@@ -37,11 +37,12 @@ def test_a_robot_that_does_nothing_falls_and_pays_for_it() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("noise", ["none", "usual"])
 @pytest.mark.parametrize("name", ["clamber/Climb-v0", "clamber/Walk-v0"])
-def test_our_own_controller_carries_the_plan_out_by_the_same_actions(name: str) -> None:
+def test_our_own_controller_carries_the_plan_out_by_the_same_actions(name: str, noise: str) -> None:
     from clamber.families.spatial.environment_baseline import carry_out
 
-    env = made(name).unwrapped  # type: ignore[attr-defined]
+    env = made(name, noise=[noise]).unwrapped  # type: ignore[attr-defined]
     episode = carry_out(env, seed=1)
     assert episode.done and episode.progress == 1.0 and episode.reason == ""
     # 10 for the plan, 1 for each length of the longest limb that the body came nearer to its stances, hardly anything for torques
