@@ -26,7 +26,6 @@ from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task, task_from_document
 from clamber.tasks.robots import load_robot
 from plain_walker import CHECKS, PlainStance, PlainWalker
-from tiers import first_fast
 
 ACTIONS = (*MOVES, "swap", "none")
 CODES = (*(pack(MOVE, 0, axis) for axis in range(6)), pack(RELEASE), pack(NONE))
@@ -161,8 +160,8 @@ def random_task(rng: random.Random) -> WalkerTask:
     return load(*overrides, ground=ground)
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("most", first_fast([2000, 6000]))
+@pytest.mark.slow
+@pytest.mark.parametrize("most", [2000, 6000])
 def test_kernel_and_plain_evaluator_agree_on_random_walks(most: int) -> None:
     rng = random.Random(5)
     actions = goals = failures = 0

@@ -102,7 +102,7 @@ def start_batch(folder: Path, *size: object) -> "subprocess.Popen[bytes]":
 MOMENTS = [3, pytest.param(20, marks=pytest.mark.slow)]
 
 
-@pytest.mark.long
+@pytest.mark.slow
 @pytest.mark.parametrize("kills", MOMENTS)
 def test_a_whole_batch_killed_at_random_moments_loses_and_repeats_no_finished_item(tmp_path: Path, kills: int) -> None:
     n, sleep = 12 * kills, 0.02

@@ -38,7 +38,6 @@ from clamber.limb_bench.tune import (
 from clamber.sim.bench_limb import BenchLimb
 from clamber.sim.flaw_texts import named_flaws
 from clamber.sim.limb_flaws import LimbFlaws
-from tiers import first_fast
 
 
 @pytest.fixture(scope="module")
@@ -69,14 +68,14 @@ def test_the_nominal_plant_is_that_of_the_issue(flaws: LimbFlaws) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("every", first_fast([6, 3]))
+@pytest.mark.parametrize("every", [6, 3])
 @pytest.mark.parametrize("law", LAWS)
 def test_no_law_limit_cycles_at_its_recommended_gains(limb: BenchLimb, flaws: LimbFlaws, law: str, every: int) -> None:
     assert swing(limb, stored(law)[0], flaws, every=every) <= 0.0005
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("law", first_fast(["scct", "jacobian-transpose", "operational-space"]))
+@pytest.mark.parametrize("law", ["scct", "jacobian-transpose", "operational-space"])
 def test_a_law_limit_cycles_beyond_its_limit(limb: BenchLimb, flaws: LimbFlaws, law: str) -> None:
     settings, found = stored(law)
     worn = flaws.with_changes(friction=0.7)  # as the limit was searched

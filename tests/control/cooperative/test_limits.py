@@ -17,7 +17,6 @@ from clamber.families.walker.control.cooperative.planted_feet import LimitError,
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
 from clamber.families.walker.robot import WalkerRobot
 from clamber.types import Floats
-from tiers import first_fast
 
 START = np.array([0.0, 0.0, 0.38, 0.0, 0.0, 0.0, 0.2, 1.1, -1.0, -0.9])
 SETS: tuple[Freedoms, ...] = ("arm", "height", "levelling", "all")
@@ -138,7 +137,7 @@ def closest_to_far(freedoms: Freedoms) -> list[Reach]:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("tool_speed", first_fast([0.1, 0.05, 0.4]))
+@pytest.mark.parametrize("tool_speed", [0.1, 0.05, 0.4])
 @pytest.mark.parametrize("freedoms", ["arm", "levelling", "all"])
 def test_a_run_comes_to_rest_where_the_search_finds_the_closest_reachable_place(
     freedoms: Freedoms, tool_speed: float
