@@ -5,11 +5,22 @@ import math
 import numpy as np
 
 from clamber.families.spatial.robot.chains import Chains
+from clamber.families.spatial.robot.contacts import Contact, cone
 from clamber.families.spatial.statics.judging import Statics
 from clamber.types import Floats, Records
 from plain_spatial import frames, turn_about
 
 X, Y, Z = np.eye(3)
+
+
+def point_foot(friction: float) -> Contact:
+    """A foot that touches in a point: pushes only, within its friction cone."""
+    return Contact(kind="point", rows=cone(), friction=friction)
+
+
+def gripper(friction: float, pull: float) -> Contact:
+    """A gripper on a hold as a point that also pulls: a friction cone whose apex lies at the pull-off force [N]."""
+    return Contact(kind="gripper", rows=cone(), friction=friction, pull=pull)
 
 
 def spider(limbs: int, *, torque: float = 3.0, base_mass: float = 1.2, link_mass: float = 0.08) -> Chains:

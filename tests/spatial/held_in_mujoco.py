@@ -19,7 +19,6 @@ from scipy.optimize import nnls
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
-from clamber.families.spatial.robot.contact_files import read_contact
 from clamber.families.spatial.robot.contact_kinds import (
     AreaFoot,
     Clamp,
@@ -27,6 +26,7 @@ from clamber.families.spatial.robot.contact_kinds import (
     Hook,
     Spine,
     build_contact,
+    read_contact,
 )
 from clamber.families.spatial.robot.robot import SpatialRobot
 from clamber.families.spatial.statics.judging import Statics

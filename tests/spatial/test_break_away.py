@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from clamber.families.spatial.execution.plant import Pose
-from clamber.families.spatial.robot.contact_files import DATA
+from clamber.families.spatial.robot.contact_kinds import DATA
 from clamber.families.spatial.robot.robot import build_robot
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.families.spatial.sim.spatial_model import TIP

@@ -13,7 +13,7 @@ import pytest
 from clamber.errors import SpecError
 from clamber.families.spatial.planning.first_task import first_task, fit_named
 from clamber.families.spatial.planning.problem import SpatialProblem
-from clamber.families.spatial.robot import contact_files
+from clamber.families.spatial.robot import contact_kinds
 from clamber.families.spatial.world.made import Fit, Kind, Wanted, world_data
 from clamber.families.spatial.world.world import World, build_world
 from clamber.files import Document
@@ -170,7 +170,7 @@ def test_a_limbs_contact_and_its_numbers_are_set_and_kept() -> None:
 
 def test_a_stored_task_has_no_say_in_which_files_are_read(tmp_path: Path) -> None:
     file = tmp_path / "mine.toml"
-    file.write_text((Path(contact_files.__file__).parent.parent / "data/contacts/magnet.toml").read_text())
+    file.write_text((Path(contact_kinds.__file__).parent.parent / "data/contacts/magnet.toml").read_text())
     task: Any = load_task("wall-gripper", [f"limb.LF.contact={file}"])
     assert task_from_document(task.document).robot.ends[0].kind == "magnet"
     document = copy.deepcopy(task.document)

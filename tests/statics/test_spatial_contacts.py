@@ -9,7 +9,6 @@ import pytest
 from scipy.optimize import linprog
 
 from clamber.errors import SpecError
-from clamber.families.spatial.robot.contact_files import contact_names, read_contact
 from clamber.families.spatial.robot.contact_kinds import (
     KINDS,
     AreaFoot,
@@ -18,6 +17,8 @@ from clamber.families.spatial.robot.contact_kinds import (
     Spine,
     Suction,
     build_contact,
+    contact_names,
+    read_contact,
 )
 from clamber.families.spatial.robot.contacts import Contact
 from clamber.files import Document

@@ -7,15 +7,14 @@ import numpy as np
 import pytest
 
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contact_files import read_contact
-from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact
-from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
+from clamber.families.spatial.robot.contact_kinds import Magnet, build_contact, read_contact
+from clamber.families.spatial.robot.contacts import Contact
 from clamber.families.spatial.statics.checks import STANCE_CHECK
 from clamber.families.spatial.statics.judging import Statics, rules_record
 from clamber.tasks import load_task
 from clamber.types import Records
 from plain_spatial import PlainStance, plain_margins, solve_forces, turn_about
-from spatial_machines import arms, random_stances, spider
+from spatial_machines import arms, gripper, point_foot, random_stances, spider
 
 
 def shipped(name: str) -> Contact:

@@ -5,14 +5,13 @@ import numpy as np
 import pytest
 
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contacts import point_foot
 from clamber.families.spatial.statics.gravity_kernels import base_weight, limb_weight
 from clamber.families.spatial.statics.judging import Statics, rules_record
 from clamber.families.spatial.statics.kinematics_kernels import limb_frames, reach_point, tip_jacobian
 from clamber.families.spatial.statics.records import WORK
 from clamber.types import Floats, Records
 from plain_spatial import frames, limb_energy
-from spatial_machines import arms, random_postures, random_stances, spider
+from spatial_machines import arms, point_foot, random_postures, random_stances, spider
 
 MACHINES = {"spider": spider(4), "arms": arms(3), "seven joints": arms(2, 7), "slides": arms(3, 6, slide=True)}
 AT_HOME = np.eye(4)

@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 from clamber.families.spatial.execution.references import TipPath
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contact_files import read_contact
-from clamber.families.spatial.robot.contact_kinds import build_contact
-from clamber.families.spatial.robot.contacts import Contact, gripper, point_foot
+from clamber.families.spatial.robot.contact_kinds import build_contact, read_contact
+from clamber.families.spatial.robot.contacts import Contact
 from clamber.families.spatial.statics.checks import STANCE_CHECK, STANCE_CHECKS
 from clamber.families.spatial.statics.collision_kernels import box_gap, limbs_gap, pair_gap, segment_gap
 from clamber.families.spatial.statics.judging import Statics, rules_record
@@ -21,7 +20,7 @@ from clamber.families.spatial.statics.stance_kernels import swing_reach
 from clamber.planning.problem.check import UNLIMITED
 from clamber.types import Floats, Records
 from plain_spatial import frames
-from spatial_machines import arms, random_stances, random_turn, spider
+from spatial_machines import arms, gripper, point_foot, random_stances, random_turn, spider
 
 CLAMP = build_contact(read_contact("clamp")).contact()
 MACHINES: dict[str, tuple[Chains, Contact]] = {

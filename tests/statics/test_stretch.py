@@ -9,14 +9,13 @@ from scipy.optimize import minimize
 
 from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.robot.chains import Chains
-from clamber.families.spatial.robot.contacts import point_foot
 from clamber.families.spatial.statics.judging import REACHED, Statics, rules_record
 from clamber.families.spatial.statics.stretch import farthest_tips
 from clamber.planning.beam import plan_beam
 from clamber.tasks import load_task
 from clamber.types import Floats
 from plain_spatial import joints
-from spatial_machines import arms, random_stances, spider
+from spatial_machines import arms, point_foot, random_stances, spider
 
 PART = 0.9
 

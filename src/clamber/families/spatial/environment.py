@@ -113,7 +113,7 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         self.size = float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max())
         """Length of the longest limb [m]."""
         self._pull = chains.total_mass * 9.80665
-        self._ends = [end.bears().capture > 0.0 for end in robot.ends]
+        self._ends = [strength.capture > 0.0 for strength in robot.strengths]
         self.plant = SpatialSim(robot, world)
         self.torques: Floats = self.plant.motors.torque.copy()
         """Largest torque of each joint [N m] or force [N], shape (n,)."""

@@ -40,7 +40,7 @@ GRABS: Final = 6
 
 def fault_kinds(robot: SpatialRobot) -> tuple[str, ...]:
     """Kinds of faults that a robot may have: only end effectors that attach pull a hold off."""
-    attaches = any(end.bears().capture > 0.0 for end in robot.ends)
+    attaches = any(strength.capture > 0.0 for strength in robot.strengths)
     return tuple(name for name, kind in FAULTS.items() if kind.target != "hold" or attaches)
 
 
@@ -48,7 +48,8 @@ def failing_of(task: SpatialTask, plan: Plan) -> Failing:
     """Sensors, motors, and the holds that the plan comes to first with end effectors that attach."""
     robot = task.robot
     names = sensor_names(robot)
-    taken = [hold for limb, hold in grabs(task, plan) if robot.ends[limb].bears().capture > 0.0]
+    strengths = robot.strengths
+    taken = [hold for limb, hold in grabs(task, plan) if strengths[limb].capture > 0.0]
     holds = tuple(hold + 1 for hold in dict.fromkeys(taken))[:GRABS]
     sensors = dict(zip(names, sensor_ranges(robot).tolist(), strict=True))
     joints = names[: int(robot.chains.n_joints.sum())]

@@ -1,13 +1,15 @@
-"""Kinds of contacts as files state them, with the numbers of a data sheet, and the contact that statics makes of each."""
+"""Kinds of contacts as files state them, with the numbers of a data sheet: those that come with Clamber, and those that limbs name."""
 
 import math
-from typing import Annotated, Any, Final, Literal, TypeAlias
+from pathlib import Path
+from typing import Annotated, Final, Literal
 
 from pydantic import Field
 
-from ....errors import describe_choices
-from ....files import Document, check_schema
+from ....errors import UnknownNameError, describe_choices
+from ....files import Document, check_schema, data_names, find_data, read_toml
 from ....specs import Name, build_spec, spec
+from ....types import Json
 from ....units import (
     ConeAngle,
     NonNegativeLength,
@@ -18,9 +20,10 @@ from ....units import (
     PositiveRatio,
     PositiveTorque,
 )
-from .contacts import Contact, Strength, at_most, cone, hook_rows, moments, padded, spine_rows
+from .contacts import Contact, Strength
 
 SCHEMA: Final = "clamber-contact-1"
+DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
 CAPTURE: Final = 0.01
 """How far beside a hold end effectors attach whose files do not say it, chosen: spines, jaws and lips of this size reach so far [m]."""
 CENTRING: Final = 0.03
@@ -30,18 +33,29 @@ Title = Annotated[str, Field(max_length=200)]
 
 
 @spec
-class PointFoot:
-    """A foot that touches in a point and pushes."""
+class ContactKind:
+    """What a limb holds on with."""
 
-    kind: Literal["foot"]
+    kind: str
     name: Name
     title: Title
     friction: NonNegativeRatio
-    """Coefficient of friction [-]."""
+    """Coefficient mu [-]: tangential force per normal force, of what pulls per normal force above the pull-off force."""
+
+    def bears(self) -> Strength:
+        """Exactly what it bears."""
+        raise NotImplementedError
 
     def contact(self) -> Contact:
-        """What it can take: a friction cone."""
-        return Contact(kind=self.kind, rows=cone(), friction=self.friction)
+        """What statics takes of it: a polytope in that."""
+        return self.bears().contact(self.kind)
+
+
+@spec
+class PointFoot(ContactKind):
+    """A foot that touches in a point and pushes."""
+
+    kind: Literal["foot"]
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -49,14 +63,10 @@ class PointFoot:
 
 
 @spec
-class AreaFoot:
+class AreaFoot(ContactKind):
     """A flat foot that pushes all over a rectangle; with an ankle that turns freely, no moments but friction's cone."""
 
     kind: Literal["area"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Coefficient of friction [-]."""
     length: PositiveLength
     """Along the end effector's x [m]."""
     width: PositiveLength
@@ -65,10 +75,6 @@ class AreaFoot:
     """Largest angle between sole and surface: of the ankle, or that the sole gives way [rad]."""
     ankle: bool = False
     """Whether a passive joint lets the sole lie flat."""
-
-    def contact(self) -> Contact:
-        """What it can take."""
-        return padded(self.kind, self.friction, 0.0, (self.length / 2, self.width / 2), self.ankle, self.tilt)
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -82,14 +88,10 @@ class AreaFoot:
 
 
 @spec
-class Gripper:
+class Gripper(ContactKind):
     """A gripper closed around a hold, as a point that pushes and pulls."""
 
     kind: Literal["gripper"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Tangential force per normal force above the pull-off force [-]."""
     pull: PositiveForce
     """Pull-off force along the normal [N]."""
     capture: PositiveLength = CAPTURE
@@ -98,10 +100,6 @@ class Gripper:
     """As it shuts, it draws its tip to the hold's place from no further than this [m]; 0: it stays where it attaches."""
     jaws: NonNegativeLength = 0.0
     """Depth of its jaws: it takes what stands out, such as a peg, anywhere within them [m]; 0: it lies on its holds."""
-
-    def contact(self) -> Contact:
-        """What it can take: a friction cone whose apex lies at the pull-off force."""
-        return Contact(kind=self.kind, rows=cone(), friction=self.friction, pull=self.pull)
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -116,14 +114,10 @@ class Gripper:
 
 
 @spec
-class Clamp:
+class Clamp(ContactKind):
     """A clamp that holds an edge or a plate from both sides and bears moments of its own."""
 
     kind: Literal["clamp"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Tangential force per normal force above the pull-off force [-]."""
     pull: PositiveForce
     """Pull-off force along the normal [N]."""
     press: PositiveForce
@@ -138,19 +132,6 @@ class Clamp:
     """It attaches beside a hold's patch by no more than this [m]."""
     centring: NonNegativeLength = CENTRING
     """As it shuts, it draws its tip to the hold's place from no further than this [m]; 0: it stays where it attaches."""
-
-    def contact(self) -> Contact:
-        """What it can take: forces and moments apart from each other."""
-        rows = (*cone(), *at_most(self.press), *moments(self.bending, self.twisting))
-        return Contact(
-            kind=self.kind,
-            rows=rows,
-            friction=self.friction,
-            pull=self.pull,
-            components=6,
-            aligned=True,
-            tilt=self.tilt,
-        )
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -169,14 +150,10 @@ class Clamp:
 
 
 @spec
-class Hook:
-    """A hook over a bar: the normal points from the bar's bearing side into the hook's bed."""
+class Hook(ContactKind):
+    """A hook over a bar: the normal points from the bar's bearing side into the hook's bed; its friction is that along the bar."""
 
     kind: Literal["hook"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Coefficient of friction along the bar [-]."""
     opening: ConeAngle
     """Half angle of the forces across the bar that stay in the bed [rad]."""
     strength: PositiveForce
@@ -187,13 +164,6 @@ class Hook:
     """It attaches beside a hold's patch by no more than this [m]."""
     centring: NonNegativeLength = CENTRING
     """As it shuts, it draws its tip to the hold's place from no further than this, across its bar [m]; 0: it stays where it attaches."""
-
-    def contact(self) -> Contact:
-        """What it can take."""
-        rows = hook_rows(self.opening, self.friction)
-        return Contact(
-            kind=self.kind, rows=rows, friction=self.friction, pull=self.strength, aligned=True, tilt=self.tilt
-        )
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -210,14 +180,10 @@ class Hook:
 
 
 @spec
-class Magnet:
+class Magnet(ContactKind):
     """A magnet on steel: pulls all over its pole face, less across a gap (paint, rust) and when it stands tilted."""
 
     kind: Literal["magnet"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Shear force per pull: coefficient of friction against steel [-]."""
     pull: PositiveForce
     """Pull-off force without a gap [N]."""
     radius: PositiveLength
@@ -235,33 +201,18 @@ class Magnet:
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
 
-    def contact(self) -> Contact:
-        """What it can take."""
-        side = self.radius * math.sqrt(0.5)
-        return padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt, self._loss)
-
-    @property
-    def _pull(self) -> float:
-        return self.pull / (1.0 + self.gap / self.quarter_gap) ** 2
-
-    @property
-    def _loss(self) -> float:
-        return 0.0 if self.ankle or self.half_tilt is None else 0.5 / self.half_tilt
-
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return _strength(self, self._pull, self.radius * math.sqrt(0.5), self._loss)
+        pull = self.pull / (1.0 + self.gap / self.quarter_gap) ** 2
+        loss = 0.0 if self.ankle or self.half_tilt is None else 0.5 / self.half_tilt
+        return _face(self, pull, self.radius, loss)
 
 
 @spec
-class Suction:
+class Suction(ContactKind):
     """A suction cup: its pull is the vacuum over its area, less a safety factor."""
 
     kind: Literal["suction"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Coefficient of friction [-]."""
     vacuum: PositivePressure
     """Below the pressure around it [Pa]."""
     diameter: PositiveLength
@@ -275,29 +226,16 @@ class Suction:
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
 
-    def contact(self) -> Contact:
-        """What it can take."""
-        side = self.diameter / 2 * math.sqrt(0.5)
-        return padded(self.kind, self.friction, self._pull, (side, side), self.ankle, self.tilt)
-
-    @property
-    def _pull(self) -> float:
-        return self.vacuum * math.pi / 4 * self.diameter**2 / self.safety
-
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return _strength(self, self._pull, self.diameter / 2 * math.sqrt(0.5))
+        return _face(self, self.vacuum * math.pi / 4 * self.diameter**2 / self.safety, self.diameter / 2)
 
 
 @spec
-class Spine:
-    """Spines that hook into roughness when they are drawn along the end effector's x."""
+class Spine(ContactKind):
+    """Spines that hook into roughness when they are drawn along the end effector's x; else, and sidewards, they rub."""
 
     kind: Literal["spine"]
-    name: Name
-    title: Title
-    friction: NonNegativeRatio
-    """Coefficient of friction when they are not drawn, and sidewards [-]."""
     angle: ConeAngle
     """Of the drawing force out of the surface at which they come off [rad]."""
     strength: PositiveForce
@@ -306,12 +244,6 @@ class Spine:
     """Largest angle of the end effector's z from the inward normal [rad]."""
     capture: PositiveLength = CAPTURE
     """It attaches beside a hold's patch by no more than this [m]."""
-
-    def contact(self) -> Contact:
-        """What it can take."""
-        return Contact(
-            kind=self.kind, rows=spine_rows(self.angle), friction=self.friction, pull=self.strength, tilt=self.tilt
-        )
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
@@ -325,8 +257,7 @@ class Spine:
         )
 
 
-ContactKind: TypeAlias = PointFoot | AreaFoot | Gripper | Clamp | Hook | Magnet | Suction | Spine
-KINDS: Final[dict[str, type[Any]]] = {
+KINDS: Final[dict[str, type[ContactKind]]] = {
     "foot": PointFoot,
     "area": AreaFoot,
     "gripper": Gripper,
@@ -349,12 +280,12 @@ def build_contact(document: Document) -> ContactKind:
     kind = document.data.get("kind")
     if kind not in KINDS:
         raise document.problem("kind", f"must be {describe_choices(str(kind), tuple(KINDS))}")
-    built: ContactKind = build_spec(KINDS[str(kind)], document, without=("schema",))
-    return built
+    return build_spec(KINDS[str(kind)], document, without=("schema",))
 
 
-def _strength(kind: Magnet | Suction, pull: float, side: float, loss: float = 0.0) -> Strength:
-    """Of a face that pulls all over the square in it, half as wide as `side` [m]."""
+def _face(kind: Magnet | Suction, pull: float, radius: float, loss: float = 0.0) -> Strength:
+    """Of a round face that pulls all over the square in it."""
+    side = radius * math.sqrt(0.5)
     return Strength(
         form="cone" if kind.ankle else "pad",
         friction=kind.friction,
@@ -365,3 +296,43 @@ def _strength(kind: Magnet | Suction, pull: float, side: float, loss: float = 0.
         tilt=kind.tilt,
         tilt_loss=loss,
     )
+
+
+def contact_names() -> tuple[str, ...]:
+    """Names of the contacts that come with Clamber."""
+    return data_names(DATA)
+
+
+def read_contact(name_or_path: str, folder: Path | None = None) -> Document:
+    """The document of a contact, by its shipped name or from the user's file (a path, relative to `folder`).
+
+    Raises:
+        UnknownNameError: If no contact has that name.
+        FileError: If the file cannot be read.
+    """
+    path, label = find_data("contact", name_or_path, (DATA,), folder)
+    return read_toml(path, label)
+
+
+def stated_contacts(document: Document) -> Json:
+    """Documents of the contacts that a robot's limbs name, by these names; of one that the document states itself, that.
+
+    A stored document has no say in which files are read: what it does not state itself must come with Clamber.
+
+    Raises:
+        SpecError: If there is no such contact.
+        FileError: If a file can't be read.
+    """
+    limbs = document.data.get("limb")
+    found: Json = dict(document.section("contacts", document.label).data) if "contacts" in document.data else {}
+    for k, limb in enumerate(limbs if isinstance(limbs, list) else ()):
+        named = limb.get("contact") if isinstance(limb, dict) else None
+        if isinstance(named, str) and named not in found:
+            if "contacts" in document.data and not document.overrides and named not in contact_names():
+                allowed = f"must be one of 'contacts', or come with Clamber: {describe_choices(named, contact_names())}"
+                raise document.problem(f"limb.{k}.contact", allowed)
+            try:
+                found[named] = read_contact(named, document.folder).data
+            except UnknownNameError as error:
+                raise document.problem(f"limb.{k}.contact", str(error)) from None
+    return found

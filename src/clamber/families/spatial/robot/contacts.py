@@ -108,17 +108,38 @@ class Strength:
     tilt_loss: float = 0.0
     """Share of the pull that a radian of tilt costs [1/rad]."""
 
+    def contact(self, kind: str) -> Contact:
+        """How a limb of such a kind holds on."""
+        if self.form == "pad":
+            rows = pad(*self.halves)
+        elif self.form == "hook":
+            rows = hook_rows(self.angle, self.friction)
+        elif self.form == "spine":
+            rows = spine_rows(self.angle)
+        else:
+            rows = (*cone(), *at_most(self.press), *(moments(self.bending, self.twisting) if self.moments else ()))
+        return Contact(
+            kind=kind,
+            rows=rows,
+            friction=self.friction,
+            pull=self.pull,
+            components=6 if self.moments else 3,
+            aligned=self.moments or self.form == "hook",
+            tilt=self.tilt,
+            tilt_loss=self.tilt_loss,
+        )
 
-def cone(facets: int = FACETS) -> tuple[Row, ...]:
+
+def cone() -> tuple[Row, ...]:
     """Rows of a friction cone `|tangent| <= mu (normal + pull)` and of `normal >= -pull`, inscribed."""
-    inside = math.cos(math.pi / facets)
+    inside = math.cos(math.pi / FACETS)
     sides = tuple(
         Row(
             coefficients=line(f1=math.cos(angle), f2=math.sin(angle)),
             per_friction=line(n=-inside),
             limit=(0.0, 0.0, inside),
         )
-        for angle in (math.tau * k / facets for k in range(facets))
+        for angle in (math.tau * k / FACETS for k in range(FACETS))
     )
     return (*sides, Row(coefficients=line(n=-1.0), limit=(0.0, 1.0, 0.0), margin=GRIP))
 
@@ -130,9 +151,9 @@ def at_most(press: float) -> tuple[Row, ...]:
     return (Row(coefficients=line(n=1.0), limit=(press, 0.0, 0.0), margin=GRIP),)
 
 
-def moments(bending: float, twisting: float, facets: int = FACETS) -> tuple[Row, ...]:
+def moments(bending: float, twisting: float) -> tuple[Row, ...]:
     """Rows of moments across the normal of at most `bending` in any direction, inscribed, and about it of at most `twisting` [N m]."""
-    inside = bending * math.cos(math.pi / facets)
+    inside = bending * math.cos(math.pi / FACETS)
     bends = tuple(
         Row(
             coefficients=line(m1=math.cos(angle), m2=math.sin(angle)),
@@ -140,7 +161,7 @@ def moments(bending: float, twisting: float, facets: int = FACETS) -> tuple[Row,
             slack=(0.0, inside),
             margin=MOMENT,
         )
-        for angle in (math.tau * k / facets for k in range(facets))
+        for angle in (math.tau * k / FACETS for k in range(FACETS))
     )
     twists = tuple(
         Row(coefficients=line(mn=sign), limit=(twisting, 0.0, 0.0), slack=(0.0, twisting), margin=MOMENT)
@@ -184,27 +205,12 @@ def pad(half1: float, half2: float) -> tuple[Row, ...]:
     return (*slides, *tips, *twists, Row(coefficients=line(n=-1.0), limit=(0.0, 1.0, 0.0), margin=GRIP))
 
 
-def padded(
-    kind: str, friction: float, pull: float, halves: tuple[float, float], ankle: bool, tilt: float, loss: float = 0.0
-) -> Contact:
-    """A pad's contact: within an ankle it bears no moments, without one it has to lie flat."""
-    return Contact(
-        kind=kind,
-        rows=cone() if ankle else pad(*halves),
-        friction=friction,
-        pull=pull,
-        components=3 if ankle else 6,
-        aligned=not ankle,
-        tilt=tilt,
-        tilt_loss=loss,
-    )
-
-
-def hook_rows(opening: float, friction: float, facets: int = 2 * FACETS) -> tuple[Row, ...]:
+def hook_rows(opening: float, friction: float) -> tuple[Row, ...]:
     """Rows of a hook over a bar (first tangent along the bar, normal out of what it hangs on).
 
     It slides along the bar by friction, leaves its bed beyond the half angle `opening` [rad] across it, and bears the pull as its strength.
     """
+    facets = 2 * FACETS
     inside = math.cos(math.pi / facets)
     across = math.tan(opening)
     strength = inside / math.hypot(1.0, friction)  # the force along the bar is at most mu times the normal one
@@ -222,13 +228,13 @@ def hook_rows(opening: float, friction: float, facets: int = 2 * FACETS) -> tupl
     return (*slides, *leaves, *breaks)
 
 
-def spine_rows(angle: float, facets: int = FACETS) -> tuple[Row, ...]:
+def spine_rows(angle: float) -> tuple[Row, ...]:
     """Rows of spines that hook into roughness when they are drawn along the first tangent (the force on them is along it).
 
     Drawn, they also pull, up to `tan(angle)` times the draw, and bear the pull as their strength along the tangent; else they rub.
     """
     hold = math.tan(angle)
-    inside = math.cos(math.pi / facets)
+    inside = math.cos(math.pi / FACETS)
     drawn = [
         Row(coefficients=line(n=-1.0, f1=-hold), margin=GRIP),
         Row(coefficients=line(f1=1.0), limit=(0.0, 1.0, 0.0), margin=GRIP),
@@ -236,16 +242,6 @@ def spine_rows(angle: float, facets: int = FACETS) -> tuple[Row, ...]:
     aside = [Row(coefficients=line(f2=sign), per_friction=line(n=-inside, f1=-inside * hold)) for sign in (1.0, -1.0)]
     back = [
         Row(coefficients=line(f1=math.cos(turn), f2=math.sin(turn)), per_friction=line(n=-inside))
-        for turn in (math.tau * k / facets for k in range(facets // 4 + 1, facets - facets // 4))
+        for turn in (math.tau * k / FACETS for k in range(FACETS // 4 + 1, FACETS - FACETS // 4))
     ]
     return (*drawn, *aside, *back)
-
-
-def point_foot(friction: float, facets: int = FACETS) -> Contact:
-    """A foot that touches in a point: pushes only, within its friction cone."""
-    return Contact(kind="point", rows=cone(facets), friction=friction)
-
-
-def gripper(friction: float, pull: float, facets: int = FACETS) -> Contact:
-    """A gripper on a hold as a point that also pulls: a friction cone whose apex lies at the pull-off force [N]."""
-    return Contact(kind="gripper", rows=cone(facets), friction=friction, pull=pull)

@@ -19,9 +19,8 @@ from ....types import Json
 from ....units import Length, NonNegativeAngle, NonNegativeLength, PositiveAngularSpeed, Quantity
 from .assembly import Choice, LimbChoice, axis_frame, chains_of
 from .chains import Chains
-from .contact_files import stated_contacts
-from .contact_kinds import ContactKind, build_contact
-from .contacts import Contact
+from .contact_kinds import ContactKind, build_contact, stated_contacts
+from .contacts import Contact, Strength
 from .handling import Handling, Payload
 from .model import read_model
 from .readings import LINEAR, Load, Position, Rate, Reading, shown
@@ -145,6 +144,11 @@ class SpatialRobot(Pictured):
     def contacts(self) -> tuple[Contact, ...]:
         """What the end of each limb can take, as statics needs it."""
         return tuple(map(_contact_of, self.ends))
+
+    @property
+    def strengths(self) -> tuple[Strength, ...]:
+        """Exactly what the end of each limb bears."""
+        return tuple(end.bears() for end in self.ends)
 
 
 @lru_cache
@@ -337,24 +341,23 @@ def _bounds(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) 
 def _torque(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> float:
     """Torque [N m] or force [N] of a joint's motor that may be used."""
     key = f"limb.{limb.name}.torques.{joint.name}"
-    if joint.name not in limb.torques:
-        if joint.torque is None:
-            raise document.problem(key, "must be given, as the model states no torque of this joint, such as '10 N m'")
-        return robot.torque_share * joint.torque
-    reading = limb.torques[joint.name]
-    _check_dimension(document, key, joint, reading)
-    if not reading.value > 0.0:
-        raise document.problem(key, "must be more than 0")
-    return robot.torque_share * reading.value
+    torque = _positive(document, key, joint, limb.torques.get(joint.name)) or joint.torque
+    if torque is None:
+        raise document.problem(key, "must be given, as the model states no torque of this joint, such as '10 N m'")
+    return robot.torque_share * torque
 
 
 def _speed(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> float:
     """Speed of a joint's motor without load [rad/s] or [m/s]; infinite where nothing states one."""
     key = f"limb.{limb.name}.speeds.{joint.name}"
-    if joint.name not in limb.speeds:
-        usual = None if joint.sliding else robot.speed
-        return joint.speed or usual or math.inf
-    reading = limb.speeds[joint.name]
+    usual = None if joint.sliding else robot.speed
+    return _positive(document, key, joint, limb.speeds.get(joint.name)) or joint.speed or usual or math.inf
+
+
+def _positive(document: Document, key: str, joint: Joint, reading: Reading | None) -> float | None:
+    """What the file states of a joint's motor; None: nothing."""
+    if reading is None:
+        return None
     _check_dimension(document, key, joint, reading)
     if not reading.value > 0.0:
         raise document.problem(key, "must be more than 0")

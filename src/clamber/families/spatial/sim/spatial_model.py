@@ -73,10 +73,10 @@ def spatial_spec(robot: SpatialRobot, true: TrueWorld, flaws: SpatialFlaws) -> A
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = IMPRATIO
-    option.noslip_iterations = NOSLIP if any(not end.bears().capture for end in robot.ends) else 0
+    strengths = robot.strengths
+    option.noslip_iterations = 0 if all(strength.capture for strength in strengths) else NOSLIP
     option.gravity = true.world.gravity
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
-    strengths = [end.bears() for end in robot.ends]
     _add_solids(mujoco, spec, true.world, ((1 << len(strengths)) - 1) << ON_SOLIDS)
     _add_robot(mujoco, spec, robot, strengths, true.deviations, flaws)
     return spec
@@ -106,7 +106,7 @@ def _add_robot(
     mujoco: Any,
     spec: Any,
     robot: SpatialRobot,
-    strengths: list[Strength],
+    strengths: tuple[Strength, ...],
     deviations: Deviations,
     flaws: SpatialFlaws,
 ) -> None:
