@@ -88,10 +88,6 @@ def _number(length: float) -> int:
     return max(2, math.ceil(4.0 * length / GRAIN))
 
 
-def _row(place: Floats, frame: Floats) -> Floats:
-    return np.concatenate((place, frame.ravel()))
-
-
 def _arc(corner: Floats, cut: float, radius: float, before: Floats, after: Floats) -> list[Floats]:
     """Frames along the arc that rounds a corner, from the frame before it to the frame after, turning evenly."""
     start, turn = corner - cut * before[0], math.acos(max(-1.0, min(1.0, float(before[0] @ after[0]))))
@@ -101,7 +97,8 @@ def _arc(corner: Floats, cut: float, radius: float, before: Floats, after: Float
     for share in np.linspace(0.0, 1.0, _number(radius * turn))[1:-1]:
         bent = share * turn
         place = start + radius * (math.sin(bent) * before[0] + (1.0 - math.cos(bent)) * inward)
-        rows.append(_row(place, before @ _rotation(axis, share * angle).T))
+        frame = before @ _rotation(axis, share * angle).T
+        rows.append(np.concatenate((place, frame.ravel())))
     return rows
 
 

@@ -1,14 +1,16 @@
 """Worlds in space by name or path, and holds from a table."""
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import Final
 
 from ....errors import FileError
-from ....files import Document, csv_rows, data_names, find_data, read_text, read_toml
+from ....files import Document, data_names, find_data, read_text, read_toml
 from ....types import Json
 from ....units import split_title
 from .terrain import packed_terrain
+from .terrain_files import table_rows
 
 DATA: Final = Path(__file__).parents[1] / "data" / "worlds"
 COLUMNS: Final = ("x", "y", "z", "nx", "ny", "nz", "radius", "strength", "friction")
@@ -41,7 +43,7 @@ def read_parts(document: Document, folder: Path) -> Document:
         SpecError: If it states holds twice, or no path.
         FileError: If a file cannot be read, or a line of the table is wrong.
     """
-    document = packed_terrain(Document(document.label, document.data, document.overrides, folder))
+    document = packed_terrain(replace(document, folder=folder))
     table = document.data.get("table")
     if table is None:
         return document
@@ -51,7 +53,7 @@ def read_parts(document: Document, folder: Path) -> Document:
         raise document.problem("table", "and 'holds' cannot both be stated")
     data = {key: value for key, value in document.data.items() if key != "table"}
     data["holds"] = read_holds(folder / table)
-    return Document(document.label, data, document.overrides, document.folder)
+    return replace(document, data=data)
 
 
 def read_holds(path: Path) -> list[Json]:
@@ -61,11 +63,7 @@ def read_holds(path: Path) -> list[Json]:
         FileError: If the header lacks a column or has one that is unknown, or a line is wrong; the error gives the line.
     """
     name = str(path)
-    rows = [
-        (line, [cell.strip() for cell in row])
-        for line, row in csv_rows(read_text(path), name)
-        if row and any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
+    rows = table_rows(read_text(path), name)
     if not rows:
         raise FileError(name, "has no holds", f"the first line is a header: {', '.join(COLUMNS)}")
     titles = [split_title(title) for title in rows[0][1]]

@@ -92,7 +92,8 @@ class _Sizes:
     """Sizes of a world, those that are stated and those of the robot's reach."""
 
     def __init__(self, wanted: Wanted, fit: Fit) -> None:
-        self.wanted, self.reach = wanted, fit.reach
+        self.wanted = wanted
+        self.reach = fit.reach
         self.length = _or(wanted.length, LENGTH * fit.reach)
         self.width = _or(wanted.width, WIDTH * fit.reach)
         self.spacing = _or(wanted.spacing, SPACING * fit.reach)

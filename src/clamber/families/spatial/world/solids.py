@@ -101,6 +101,12 @@ def frame_about(z: Floats, x: Floats | None = None) -> Floats:
     return np.stack((np.cross(across, z), across, z))
 
 
+def frame_along(x: Direction, z: Direction) -> Floats:
+    """A right-handed frame whose x has one direction, and whose z is as near as can be to another: its axes as rows, shape (3, 3)."""
+    ahead = unit(x)
+    return frame_about(unit(np.asarray(z) - float(np.dot(z, ahead)) * ahead), ahead)
+
+
 def solid_record(solid: Plane | Box | Round) -> np.void:
     """A solid as kernels read it, a record of `SOLID`."""
     row: np.void = np.zeros(1, SOLID)[0]
@@ -108,9 +114,7 @@ def solid_record(solid: Plane | Box | Round) -> np.void:
         row["kind"], row["centre"], row["axes"] = PLANE, solid.at, frame_about(unit(solid.normal))
         return row
     if isinstance(solid, Box):
-        x = unit(solid.x)
-        z = np.asarray(solid.z) - float(np.dot(solid.z, x)) * x
-        row["kind"], row["centre"], row["axes"] = BOX, solid.at, frame_about(unit(z), x)
+        row["kind"], row["centre"], row["axes"] = BOX, solid.at, frame_along(solid.x, solid.z)
         row["size"] = np.array(solid.size) / 2.0
         return row
     ends = np.array((solid.at, solid.to))

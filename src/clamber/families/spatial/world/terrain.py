@@ -1,13 +1,17 @@
 """Terrain of a world in space: height maps, meshes and clouds of points, with the holds that limbs find on them."""
 
+import base64
+import binascii
 import math
-from dataclasses import dataclass
+import zlib
+from dataclasses import replace
 from functools import lru_cache
 from typing import Annotated, Final, Literal
 
 import numpy as np
 from pydantic import Field, StrictBool, StrictStr
 
+from ....errors import SpecError
 from ....files import Document
 from ....regular_files import user_path
 from ....specs import spec
@@ -21,15 +25,51 @@ from ....units import (
     PositiveForce,
     PositiveLength,
 )
-from .packed import Packed, pack
 from .patterns import Seed
-from .solids import Direction, check_direction, frame_about, unit
+from .solids import Direction, check_direction, frame_along
 from .terrain_files import Long, read_heights, read_mesh, read_points
 
+LETTERS: Final = 6_000_000
+"""Most of a packed array: files of more than 8 MiB are not read."""
+Size = Annotated[int, Field(strict=True, ge=1, le=1_000_000)]
 Mesh = tuple[Floats, Long]
 """Vertices [m], shape (n, 3), and triangles that turn anticlockwise seen from outside, shape (m, 3)."""
 STEEP: Final = 60.0 * DEGREE
 """Usual slope limit of height maps and clouds [rad]."""
+
+
+@spec
+class Packed:
+    """An array of 32-bit floats: little endian, compressed by zlib, in base 64."""
+
+    shape: tuple[Size, Size]
+    data: Annotated[str, StrictStr, Field(max_length=LETTERS)]
+
+    @property
+    def array(self) -> Floats:
+        """Its values.
+
+        Raises:
+            SpecError: If the text has not so many values, or some are not finite.
+        """
+        size = 4 * math.prod(self.shape)
+        try:
+            reader = zlib.decompressobj()
+            raw = reader.decompress(base64.b64decode(self.data, validate=True), size + 1)
+        except (binascii.Error, zlib.error):
+            raw = b""
+        if len(raw) != size:
+            raise SpecError("packed array", "data", f"{self.data[:20]}...", f"must have {size} bytes, base 64 of zlib")
+        values = np.frombuffer(raw, "<f4").reshape(self.shape).astype(np.float64)
+        if not np.isfinite(values).all():
+            raise SpecError("packed array", "data", f"{self.data[:20]}...", "must be finite numbers")
+        return values
+
+
+def pack(values: Floats) -> dict[str, object]:
+    """An array of two dimensions as a document has it."""
+    data = zlib.compress(np.ascontiguousarray(values, "<f4").tobytes(), 6)
+    return {"shape": list(values.shape), "data": base64.b64encode(data).decode("ascii")}
 
 
 @spec
@@ -71,24 +111,12 @@ class Terrain:
     @property
     def axes(self) -> Floats:
         """Of its frame, as rows, world frame, shape (3, 3)."""
-        x = unit(self.x)
-        z = np.asarray(self.z) - float(np.dot(self.z, x)) * x
-        return frame_about(unit(z), x)
+        return frame_along(self.x, self.z)
 
     @property
     def steepest(self) -> float:
         """Largest angle between z and the normal of a hold [rad]."""
         return self.slope if self.slope is not None else math.pi if self.kind == "mesh" else STEEP
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Holds:
-    """Holds on a terrain, world frame."""
-
-    places: Floats
-    """[m], shape (n, 3)."""
-    normals: Floats
-    """Out of the surface, shape (n, 3)."""
 
 
 def packed_terrain(document: Document) -> Document:
@@ -101,7 +129,7 @@ def packed_terrain(document: Document) -> Document:
     if not isinstance(stated, list):
         return document
     made = [_packed(document, table) if isinstance(table, dict) and table.get("file") else table for table in stated]
-    return Document(document.label, document.data | {"terrain": made}, document.overrides, document.folder)
+    return replace(document, data=document.data | {"terrain": made})
 
 
 def _packed(document: Document, table: Json) -> Json:
@@ -179,10 +207,14 @@ def face_normals(mesh: Mesh) -> tuple[Floats, Floats]:
 
 
 @lru_cache(maxsize=8)
-def holds_on(terrain: Terrain) -> Holds:
-    """Holds on a terrain, the same for the same seed: `spacing` apart, on slopes that are allowed."""
+def holds_on(terrain: Terrain) -> tuple[Floats, Floats]:
+    """Holds on a terrain, the same for the same seed: `spacing` apart, on slopes that are allowed.
+
+    Returns:
+        Places [m] and normals out of the surface, world frame, shape (n, 3) each.
+    """
     if terrain.spacing is None:
-        return Holds(np.zeros((0, 3)), np.zeros((0, 3)))
+        return np.zeros((0, 3)), np.zeros((0, 3))
     if terrain.kind == "points":
         places, normals = _on_points(terrain, terrain.spacing)
     else:
@@ -191,7 +223,7 @@ def holds_on(terrain: Terrain) -> Holds:
     kept = normals @ up >= math.cos(terrain.steepest) - 1e-12
     places, normals = places[kept], normals[kept]
     chosen = thinned(places, terrain.spacing)
-    return Holds(places[chosen], normals[chosen])
+    return places[chosen], normals[chosen]
 
 
 CANDIDATES: Final = 8.0

@@ -100,19 +100,24 @@ def _line(error: Exception) -> str:
 
 
 def _rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Rows of a table with their lines, without empty ones and comments."""
+    """Those of a table."""
     try:
         text = read_bytes(path, MOST_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise FileError(str(path), f"is not UTF-8 (byte {error.start})", "save it as UTF-8 text") from None
-    rows = [
-        (line, [cell.strip() for cell in row])
-        for line, row in csv_rows(text, str(path))
-        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
-    ]
+    rows = table_rows(text, str(path))
     if not rows:
         raise FileError(str(path), "is empty", "state a row a line")
     return rows
+
+
+def table_rows(text: str, name: str) -> list[tuple[int, list[str]]]:
+    """Rows of a CSV text with their lines, cells without blanks around them; no empty rows and no comments."""
+    return [
+        (line, [cell.strip() for cell in row])
+        for line, row in csv_rows(text, name)
+        if any(cell.strip() for cell in row) and not row[0].lstrip().startswith("#")
+    ]
 
 
 def _numbers(path: Path, line: int, cells: list[str], count: int, most: int) -> list[float]:

@@ -1,6 +1,7 @@
 """A world in space: holds as points with normals, solid things that links must miss, gravity, and a guide that bodies go along."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import field
 from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Final, Literal
@@ -167,22 +168,12 @@ def build_world(document: Document) -> World:
         if len(holds) + pattern.grid > LOOSE * MOST_HOLDS:  # before they are made, which takes long
             allowed = f"makes about {pattern.grid:.0f} holds; a world may have {MOST_HOLDS}"
             raise document.problem(f"patterns.{k}.spacing", allowed)
-        for place, normal in pattern.points(frames, stated.seed):
-            holds.append(
-                Hold(
-                    number=len(holds) + 1,
-                    at=tuple(place),
-                    normal=tuple(normal),
-                    friction=pattern.friction,
-                    strength=pattern.strength,
-                    radius=pattern.radius,
-                )
-            )
-            if len(holds) > MOST_HOLDS:
-                raise document.problem("patterns", f"make more than {MOST_HOLDS} holds, the most that a world may have")
+        holds += _numbered(pattern.points(frames, stated.seed), pattern, len(holds))
+        if len(holds) > MOST_HOLDS:
+            raise document.problem("patterns", f"make more than {MOST_HOLDS} holds, the most that a world may have")
     for k, terrain in enumerate(stated.terrain):
         check_terrain(terrain, f"terrain.{k}", document)
-        holds += _holds_on(terrain, len(holds))
+        holds += _numbered(zip(*holds_on(terrain), strict=True), terrain, len(holds))
         if len(holds) > MOST_HOLDS:
             allowed = f"makes {len(holds)} holds with all before it; a world may have {MOST_HOLDS}"
             raise document.problem(f"terrain.{k}.spacing", allowed)
@@ -200,19 +191,18 @@ def build_world(document: Document) -> World:
     )
 
 
-def _holds_on(terrain: Terrain, before: int) -> list[Hold]:
-    """Holds that a terrain has, numbered after those before it."""
-    found = holds_on(terrain)
+def _numbered(found: Iterable[tuple[Floats, Floats]], of: Pattern | Terrain, before: int) -> list[Hold]:
+    """Holds at places with normals that a pattern or a terrain has, numbered after those before."""
     return [
         Hold(
-            number=before + k,
-            at=(float(place[0]), float(place[1]), float(place[2])),
-            normal=(float(normal[0]), float(normal[1]), float(normal[2])),
-            friction=terrain.friction,
-            strength=terrain.strength,
-            radius=terrain.radius,
+            number=number,
+            at=tuple(place.tolist()),
+            normal=tuple(normal.tolist()),
+            friction=of.friction,
+            strength=of.strength,
+            radius=of.radius,
         )
-        for k, (place, normal) in enumerate(zip(found.places, found.normals, strict=True), 1)
+        for number, (place, normal) in enumerate(found, before + 1)
     ]
 
 
