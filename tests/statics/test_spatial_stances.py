@@ -271,7 +271,7 @@ def path_rooms(machine: str, seed: int, shift: Floats, lift: float) -> tuple[flo
     swing = np.repeat(contacts[0, :1], 2)
     swing["place"][1] += bodies["rotation"][0].reshape(3, 3) @ shift
     work = np.zeros(1, WORK)
-    room = swing_reach(statics.robot[0], statics.table.record, bodies[0], 0, swing, judged[0], lift, work[0])
+    room = swing_reach(statics.robot[0], statics.table.records[0], bodies[0], 0, swing, judged[0], lift, work[0])
     return room, work, statics
 
 

@@ -250,7 +250,7 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     return Params(
         record,
         robot=arrays.robot,
-        seeds=arrays.seeds,
+        seeds=arrays.table.records,
         rules=rows,
         goals=goals,
         holds=holds,

@@ -19,16 +19,11 @@ class RobotArrays:
     robot: Records
     """One record of `ROBOT`."""
     table: SeedTable
-    """Keeps what `seeds` points at."""
+    """Its seeds; keeps what their record points at."""
     tips: Floats
     """Of the nominal postures, base frame [m], shape (limbs, 3)."""
     reach: Floats
     """Largest distance of each tip from the base's origin [m], at most, shape (limbs,)."""
-
-    @property
-    def seeds(self) -> Records:
-        """One record of `SEEDS`."""
-        return self.table.records
 
 
 def robot_arrays(robot: SpatialRobot) -> RobotArrays:

@@ -215,7 +215,8 @@ def _shrink_inertias(spec: Any, model: Any, notes: Notes) -> bool:
 
 def _size(model: Any, data: Any, body: int) -> float:
     """Largest distance of a link's shapes and joints from its centre of mass [m]; without shapes also a part of the robot's size."""
-    centre, moved = data.xipos[body], model.jnt_bodyid
+    centre = data.xipos[body]
+    moved = model.jnt_bodyid
     joints = [joint for joint in range(model.njnt) if body in (moved[joint], model.body_parentid[moved[joint]])]
     geoms = range(model.body_geomadr[body], model.body_geomadr[body] + model.body_geomnum[body])
     sizes = [float(np.linalg.norm(data.geom_xpos[geom] - centre) + model.geom_rbound[geom]) for geom in geoms]
@@ -231,7 +232,7 @@ class _Reader:
     ) -> None:
         import mujoco as mj
 
-        self.model, self.notes, self.facts, self.held = model, notes, facts, held
+        self.mj, self.model, self.notes, self.facts, self.held = mj, model, notes, facts, held
         self.data = mj.MjData(model)
         self.names = {body: model.body(body).name or f"body-{body}" for body in self._bodies()}
         of_one_axis = (int(mj.mjtJoint.mjJNT_HINGE), int(mj.mjtJoint.mjJNT_SLIDE))
@@ -298,19 +299,19 @@ class _Reader:
 
     def _moved_by(self, actuator: int) -> list[int]:
         """Joints that an actuator moves by itself, or by a tendon of joints."""
-        import mujoco as mj
-
         model, kind, target = (
             self.model,
-            mj.mjtTrn(self.model.actuator_trntype[actuator]),
+            self.mj.mjtTrn(self.model.actuator_trntype[actuator]),
             self.model.actuator_trnid[actuator, 0],
         )
-        if kind in (mj.mjtTrn.mjTRN_JOINT, mj.mjtTrn.mjTRN_JOINTINPARENT):
+        if kind in (self.mj.mjtTrn.mjTRN_JOINT, self.mj.mjtTrn.mjTRN_JOINTINPARENT):
             return [int(target)]
-        if kind != mj.mjtTrn.mjTRN_TENDON:
+        if kind != self.mj.mjtTrn.mjTRN_TENDON:
             return []
         wraps = range(model.tendon_adr[target], model.tendon_adr[target] + model.tendon_num[target])
-        return [int(model.wrap_objid[wrap]) for wrap in wraps if model.wrap_type[wrap] == int(mj.mjtWrap.mjWRAP_JOINT)]
+        return [
+            int(model.wrap_objid[wrap]) for wrap in wraps if model.wrap_type[wrap] == int(self.mj.mjtWrap.mjWRAP_JOINT)
+        ]
 
     def _link(self, body: int) -> Link:
         model = self.model
@@ -328,8 +329,6 @@ class _Reader:
         return replace(stated, mass=mass, centre=vector(model.body_ipos[body]), inertia=inertia)
 
     def _joint(self, joint: int, name: str) -> Joint:
-        import mujoco as mj
-
         model = self.model
         limited = bool(model.jnt_limited[joint])
         facts = self.facts.get(name) or JointFacts(torque=self._torque(joint), speed=None, limited=limited)
@@ -338,7 +337,7 @@ class _Reader:
         return Joint(
             name=name,
             link=self.names[int(model.jnt_bodyid[joint])],
-            kind="slide" if model.jnt_type[joint] == int(mj.mjtJoint.mjJNT_SLIDE) else "hinge",
+            kind="slide" if model.jnt_type[joint] == int(self.mj.mjtJoint.mjJNT_SLIDE) else "hinge",
             axis=vector(self.data.xaxis[joint]),
             anchor=vector(self.data.xanchor[joint]),
             limits=(lower, upper) if facts.limited else None,
@@ -352,19 +351,17 @@ class _Reader:
 
     def _torque(self, joint: int) -> float | None:
         """Largest torque [N m] or force [N] that joint and actuators let a motor give, or None."""
-        import mujoco as mj
-
         model = self.model
         known = [float(np.abs(model.jnt_actfrcrange[joint]).min())] if model.jnt_actfrclimited[joint] else []
         for actuator in range(model.nu):
-            at_joint = model.actuator_trntype[actuator] == int(mj.mjtTrn.mjTRN_JOINT)
+            at_joint = model.actuator_trntype[actuator] == int(self.mj.mjtTrn.mjTRN_JOINT)
             if not at_joint or model.actuator_trnid[actuator, 0] != joint:
                 continue
             gear = abs(float(model.actuator_gear[actuator, 0]))
             if model.actuator_forcelimited[actuator]:
                 known.append(gear * float(np.abs(model.actuator_forcerange[actuator]).min()))
             elif model.actuator_ctrllimited[actuator] and model.actuator_biastype[actuator] == int(
-                mj.mjtBias.mjBIAS_NONE
+                self.mj.mjtBias.mjBIAS_NONE
             ):
                 most = float(np.abs(model.actuator_ctrlrange[actuator]).min())
                 known.append(gear * abs(float(model.actuator_gainprm[actuator, 0])) * most)
@@ -377,10 +374,8 @@ class _Reader:
         return [geom for geom in mine if model.geom_contype[geom] or model.geom_conaffinity[geom]] or mine
 
     def _shape(self, geom: int) -> Shape:
-        import mujoco as mj
-
         model = self.model
-        kind = mj.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower()
+        kind = self.mj.mjtGeom(model.geom_type[geom]).name.removeprefix("mjGEOM_").lower()
         vertices = np.zeros((0, 3))
         if kind == "mesh":
             mesh = model.geom_dataid[geom]

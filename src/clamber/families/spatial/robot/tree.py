@@ -121,10 +121,6 @@ class Tree:
             found.append(parent)
         return tuple(reversed(found))
 
-    def children(self, name: str) -> tuple[str, ...]:
-        """Links that hang on the one called `name`."""
-        return tuple(link.name for link in self.links if link.parent == name)
-
     def joints_of(self, link: str) -> tuple[Joint, ...]:
         """Joints between a link and its parent, the first one next to the parent."""
         return tuple(joint for joint in self.joints if joint.link == link)
@@ -202,8 +198,6 @@ class Posture:
     """A tree with its joints at given positions: where links and joints have moved from where they are at 0."""
 
     tree: Tree
-    positions: Mapping[str, float]
-    """Joint -> position [rad] or [m]; 0 where it is not stated."""
     moved: Mapping[str, Frame]
     """Link -> motion from where it is with every joint at 0."""
     before: Mapping[str, Frame]
@@ -211,7 +205,7 @@ class Posture:
 
     @classmethod
     def of(cls, tree: Tree, positions: Mapping[str, float] | None = None) -> "Posture":
-        """Product of exponentials, from the root to the leaves."""
+        """Product of exponentials, from the root to the leaves; `positions`: joint -> [rad] or [m], 0 where it is not stated."""
         stated = positions or {}
         moved: dict[str, Frame] = {}
         before: dict[str, Frame] = {}
@@ -224,7 +218,7 @@ class Posture:
                 before[joint.name] = motion
                 motion = motion.then(motion_of(joint, stated.get(joint.name, 0.0)))
             moved[link.name] = motion
-        return cls(tree, stated, moved, before)
+        return cls(tree, moved, before)
 
     def frame(self, link: Link) -> Frame:
         """Where a link is."""

@@ -86,5 +86,5 @@ class Statics:
         reasons = np.zeros(len(bodies), np.int64)
         rules = rules_record() if rules is None else rules
         before, work = np.zeros(1, JUDGED), np.zeros(1, WORK)
-        judge_each(self.robot[0], self.table.record, (bodies, contacts, out, reasons), before[0], rules[0], work[0])
+        judge_each(self.robot[0], self.table.records[0], (bodies, contacts, out, reasons), before[0], rules[0], work[0])
         return out, reasons

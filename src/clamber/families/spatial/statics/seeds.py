@@ -37,8 +37,9 @@ class SeedTable:
             robot: Record of `ROBOT`.
             file: Where it is read from, and written to where it is not there; None: nowhere.
         """
-        self._record = np.zeros(1, SEEDS)
-        row = self._record[0]
+        self.records: Records = np.zeros(1, SEEDS)
+        """The record that kernels read it by, as an array of one; valid as long as this object lives."""
+        row = self.records[0]
         groups: list[int] = []
         made: list[tuple[Floats, Floats]] = []
         start = 0
@@ -89,17 +90,6 @@ class SeedTable:
         self.scores[:] = numbers[: self.scores.size]
         self.postures[:] = numbers[self.scores.size :].reshape(self.postures.shape)
         return True
-
-    @property
-    def records(self) -> Records:
-        """The record that kernels read it by, as an array of one; valid as long as this object lives."""
-        return self._record
-
-    @property
-    def record(self) -> np.void:
-        """What kernels take; valid as long as this object lives."""
-        row: np.void = self._record[0]
-        return row
 
 
 _KEPT: OrderedDict[bytes, SeedTable] = OrderedDict()
