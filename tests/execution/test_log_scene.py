@@ -22,7 +22,7 @@ from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials.run_plan import run_plan
 from clamber.families.spatial.execution.run_trace import Named
 from clamber.families.spatial.execution.space_scene import space_scene
-from clamber.families.spatial.pictures.geometry import Posed, link_frames
+from clamber.families.spatial.robot.kinematics import Posed, link_frames
 from clamber.families.walker.execution.walk_trace import LEG_NAMES, TracedWalker, WalkTrace
 from clamber.planning.problem.plan import Plan
 from clamber.sim.limb_flaws import LimbFlaws

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from clamber.families.spatial.statics.judging import rules_record
-from clamber.families.spatial.trials import rival_stances, speed, stance_rivals, worlds
+from clamber.families.spatial.trials import speed, stance_rivals, worlds
 
 RIVALS = {"jet-leg": "jet_leg", "hpp-centroidal-dynamics": "hpp_centroidal_dynamics", "OMPL": "ompl"}
 
@@ -20,7 +20,7 @@ def test_verdicts_are_those_of_highs_on_every_robot() -> None:
 
 
 def test_some_stances_of_the_compared_quadruped_stand_and_some_do_not() -> None:
-    made = rival_stances.jet_stances(400)
+    made = stance_rivals.jet_stances(400)
     judged, _ = made.statics.judge(made.bodies, made.contacts, rules_record(exact=1))
     assert np.isfinite(judged["s"]).mean() > 0.9
     assert 0.2 < (judged["s"] >= 0.0).mean() < 0.8
@@ -38,7 +38,7 @@ def test_rivals_that_are_not_installed_are_named(monkeypatch: pytest.MonkeyPatch
 
 @pytest.mark.skipif(importlib.util.find_spec("jet_leg") is None, reason="jet-leg is not installed")
 def test_jet_leg_says_the_same_of_the_same_stances() -> None:
-    made = rival_stances.jet_stances(40)
+    made = stance_rivals.jet_stances(40)
     _, reasons = made.statics.judge(made.bodies, made.contacts, rules_record(exact=0))
     verdict = stance_rivals.jet_leg(made)
     assert [verdict(i) for i in range(40)] == (reasons < 0).tolist()

@@ -46,7 +46,7 @@ def test_our_own_controller_carries_the_plan_out_by_the_same_actions(name: str, 
     episode = carry_out(env, seed=1)
     assert episode.done and episode.progress == 1.0 and episode.reason == ""
     # 10 for the plan, 1 for each length of the longest limb that the body came nearer to its stances, hardly anything for torques
-    places = [env.start.pose.position, *(goal.standing.pose.position for goal in env.goals)]
+    places = [env.start.pose.position, *(goal.end.pose.position for goal in env.goals)]
     way = sum(float(np.linalg.norm(after - before)) for before, after in pairwise(places))
     assert 10.0 < episode.total < 10.0 + way / env.size
     assert carry_out(env, seed=1) == episode, "the same seed, the same episode"
@@ -55,7 +55,7 @@ def test_our_own_controller_carries_the_plan_out_by_the_same_actions(name: str, 
 @pytest.mark.slow
 def test_a_body_that_is_on_its_way_has_not_fallen_however_long_the_way_is() -> None:
     env = made("clamber/Climb-v0").unwrapped  # type: ignore[attr-defined]
-    places = [env.start.pose.position, *(goal.standing.pose.position for goal in env.goals)]
+    places = [env.start.pose.position, *(goal.end.pose.position for goal in env.goals)]
     assert max(np.linalg.norm(after - before) for before, after in pairwise(places)) > 0.3 * env.size
     env.reset(seed=1)
     assert not env.step(np.zeros(env.action_space.shape))[4]["fell"]

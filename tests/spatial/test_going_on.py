@@ -9,7 +9,7 @@ from standing import STIFF, Standing
 from clamber.control.whole_body.tree import Dynamics, State
 from clamber.control.whole_body.tree_kernels import work_out
 from clamber.execution.fault import Fault
-from clamber.families.spatial.control.believed_tree import believed_tree, flat
+from clamber.families.spatial.control.believed_tree import believed_tree
 from clamber.families.spatial.execution.centred_loads import LoadCentre
 from clamber.families.spatial.execution.course import Course, Regrab
 from clamber.families.spatial.execution.plant import Pose
@@ -88,7 +88,7 @@ def test_a_robot_with_a_folded_limb_weighs_the_same_and_its_course_is_the_whole_
     assert isinstance(task, SpatialTask)
     whole = task.robot.chains
     limb = whole.limb_names[1]
-    posture = flat(task.robot, whole.nominal)
+    posture = whole.nominal[whole.used]
     names = [joint for one in whole.joint_names for joint in one]
     rest_of = without_limb(task, limb, {joint: float(posture[names.index(joint)]) for joint in whole.joint_names[1]})
     assert rest_of is not None

@@ -12,11 +12,11 @@ from PIL import Image
 
 from clamber.errors import SpecError
 from clamber.families.spatial.pictures.camera import NAMES, camera_for
-from clamber.families.spatial.pictures.geometry import Posed, joint_torques, link_frames, rotation_between
 from clamber.families.spatial.pictures.moments import SWINGING, Moment
 from clamber.families.spatial.pictures.space import body_meshes
 from clamber.families.spatial.planning.problem import SpatialProblem
 from clamber.families.spatial.planning.task import SpatialTask
+from clamber.families.spatial.robot.kinematics import Posed, joint_torques, link_frames, rotation_between
 from clamber.families.spatial.robot.robot import SpatialRobot
 from clamber.family import family_named
 from clamber.inspection.open_file import inspect_file, inspect_task

@@ -15,9 +15,8 @@ from clamber.families.spatial.pictures.trials_text import print_spatial_trials
 from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws, read_spatial_flaws
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
-from clamber.families.spatial.trials.drawn import drawn
 from clamber.families.spatial.trials.law_trials import first_steps
-from clamber.families.spatial.trials.noise import SPATIAL_NOISE, named_spatial_noise, read_spatial_noise
+from clamber.families.spatial.trials.noise import SPATIAL_NOISE, drawn, named_spatial_noise, read_spatial_noise
 from clamber.families.spatial.trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 from clamber.sim.plant_rules import PlantError
 from clamber.tasks.library import load_task

@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import gymnasium
@@ -21,7 +20,7 @@ from ...tasks import load_task
 from ...trials.dynamics import Conditions, RunEvents
 from ...types import Floats, Ints
 from .control.believed_tree import believed_tree
-from .execution.course import Course, Regrab, Standing
+from .execution.course import Course, Motion, Regrab
 from .execution.estimated_base import EstimatedBase
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import SpatialFlaws
@@ -46,30 +45,6 @@ STRAIN: Final = 0.002
 """Cost of a second at all torques' limits."""
 FALL: Final = -1.0
 """Reward of a fall."""
-
-
-@dataclass(frozen=True, slots=True)
-class Goal:
-    """What the plan asks for next."""
-
-    start: Standing
-    """Where the plan has the robot before ..."""
-    standing: Standing
-    """... and then."""
-    limb: int
-    """That is to take a hold; -1: the body is to move."""
-
-    def astray(self, position: Floats) -> float:
-        """How far a body is from the straight way between both [m]."""
-        begin = self.start.pose.position
-        way = self.standing.pose.position - begin
-        gone = position - begin
-        square, part = float(way @ way), 0.0
-        if square > 0.0:
-            part = float(gone @ way) / square
-            part = min(1.0, max(0.0, part))
-        off = gone - part * way
-        return float(np.linalg.norm(off))
 
 
 class SpatialEnv(gymnasium.Env[Any, Any]):
@@ -101,16 +76,17 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         self.task, self.plan = _planned(task, settings, plan)
         self._noise = read_spatial_noise(named_spatial_noise("none"), noise)
         self._ticks = ticks
-        robot, world = self.task.robot, self.task.world
+        robot = self.task.robot
+        world = self.task.world
         course = Course.of(self.task, self.plan)
         self.start = course.start
-        self.goals: Final = _goals(course)
+        self.goals: Final = course.motions
         """What the plan asks for, one after another."""
         self._tree = believed_tree(robot, world.gravity)
         self._state = State.of(self._tree)
         chains = robot.chains
         self._limbs, self._n = len(chains.limb_names), self._tree.joints
-        self.size = float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max())
+        self.size = chains.longest_limb
         """Length of the longest limb [m]."""
         self._pull = chains.total_mass * 9.80665
         self._ends = [strength.capture > 0.0 for strength in robot.strengths]
@@ -120,6 +96,8 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         actions = max(len(self.plan.actions), 1)
         self._most = math.ceil((2.0 * actions if seconds is None else seconds) / self.period)
         self._at, self._steps, self._away = 0, 0, 0.0
+        self._places: Floats = world.places
+        """Where holds are, as believed [m], shape (holds, 3)."""
         self.action_space = spaces.Box(-1.0, 1.0, (self._n + self._limbs,), np.float32)
         shape = self._observed().shape
         self.observation_space = spaces.Box(-np.inf, np.inf, shape, np.float32)
@@ -139,7 +117,8 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
     ) -> tuple[np.ndarray[Any, np.dtype[np.float32]], dict[str, Any]]:
         """Put the robot at the plan's start, with what a seed makes of the noise."""
         super().reset(seed=seed)
-        robot, world = self.task.robot, self.task.world
+        robot = self.task.robot
+        world = self.task.world
         if self._noise.any:
             drawn = int(self.np_random.integers(2**31))
             flaws = self._noise.flaws(SpatialFlaws(), drawn)
@@ -157,8 +136,8 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
             play=flaws.backlash,
         )
         self.plant.reset(self.start.pose, self.start.joints, self.start.holds)
-        sensed = self.plant.sense()
-        self._belief.begin(self.start.pose, sensed)
+        self._places = self._belief.places
+        self._belief.begin(self.start.pose, self.plant.sense())
         self._believe()
         self._at, self._steps = 0, 0
         self._away = self._distance()
@@ -187,13 +166,13 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         self._away = away
         reward -= STRAIN * self.period * float(np.mean(asked[: self._n] ** 2))
         done = self._at == len(self.goals)
-        astray = self._goal().astray(self._state.position)
+        astray = _astray(self._goal(), self._state.position)
         fell = not done and (astray > LOST * self.size or not (self._holding() >= 0).any())
         reward += FALL if fell else 0.0
         told = {"progress": self.progress, "done": done, "fell": fell}
         return self._observed(), float(reward), done or fell, self._steps >= self._most, told
 
-    def _goal(self) -> Goal:
+    def _goal(self) -> Motion:
         return self.goals[min(self._at, len(self.goals) - 1)]
 
     def _holding(self) -> Ints:
@@ -206,26 +185,26 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         self._belief.update(sensed, self._stays, self._state)
 
     def _distance(self) -> float:
-        return float(np.linalg.norm(self._goal().standing.pose.position - self._state.position))
+        return float(np.linalg.norm(self._goal().end.pose.position - self._state.position))
 
-    def _reached(self, goal: Goal) -> bool:
-        if goal.limb >= 0:
-            return bool(self._holding()[goal.limb] == goal.standing.holds[goal.limb])
-        turned = self._state.rotation @ goal.standing.pose.rotation.T
+    def _reached(self, goal: Motion) -> bool:
+        if isinstance(goal, Regrab):
+            return bool(self._holding()[goal.limb] == goal.hold)
+        turned = self._state.rotation @ goal.end.pose.rotation.T
         angle = math.acos(min(1.0, max(-1.0, (float(np.trace(turned)) - 1.0) / 2.0)))
-        away = float(np.linalg.norm(goal.standing.pose.position - self._state.position))
+        away = float(np.linalg.norm(goal.end.pose.position - self._state.position))
         return away < NEAR * self.size and angle < TURNED
 
     def _observed(self) -> np.ndarray[Any, np.dtype[np.float32]]:
         """What the robot knows, in its own frame, lengths by its size and forces by its weight."""
         state, sensed, goal = self._state, self.plant.sensed, self._goal()
-        turn, aim = state.rotation.T, goal.standing
+        turn, aim = state.rotation.T, goal.end
         wanted = turn @ aim.pose.rotation
         hold = np.zeros(3)
         limbs = np.zeros(self._limbs)
-        if goal.limb >= 0:
+        if isinstance(goal, Regrab):
             limbs[goal.limb] = 1.0
-            hold = turn @ (self._belief_places()[aim.holds[goal.limb]] - state.position) / self.size
+            hold = turn @ (self._places[goal.hold] - state.position) / self.size
         down = np.array(self.task.world.gravity)
         towards = aim.pose.position - state.position
         turned = (
@@ -251,22 +230,16 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         told = [np.ravel(part) for part in parts]
         return np.concatenate(told, dtype=np.float32, casting="same_kind")
 
-    def _belief_places(self) -> Floats:
-        return self._belief.places if hasattr(self, "_belief") else self.task.world.places
 
-
-def _goals(course: Course) -> tuple[Goal, ...]:
-    """Stances that a plan comes to, one for each motion."""
-    goals = []
-    for motion in course.motions:
-        if isinstance(motion, Regrab):
-            start, end = motion.before, motion.after
-            limb = motion.limb
-        else:
-            start, end = motion.start, motion.way[-1]
-            limb = -1
-        goals.append(Goal(start, end, limb))
-    return tuple(goals)
+def _astray(motion: Motion, position: Floats) -> float:
+    """How far a body is from the straight way of a motion [m]."""
+    begin = motion.start.pose.position
+    way = motion.end.pose.position - begin
+    gone = position - begin
+    square, part = float(way @ way), 0.0
+    if square > 0.0:
+        part = min(1.0, max(0.0, float(gone @ way) / square))
+    return float(np.linalg.norm(gone - part * way))
 
 
 def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tuple[SpatialTask, Plan]:

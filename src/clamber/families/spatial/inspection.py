@@ -10,11 +10,13 @@ from ...inspection.finding import FileKind, Finding, Inspection
 from ...shown_units import SI, ShownUnits, Unit
 from ...types import Floats
 from ...units import DEGREE, GRAVITY
-from .pictures.geometry import Posed, link_frames
 from .pictures.obstacles import distances
 from .planning.surface import on_guide
 from .planning.task import SpatialTask
+from .robot.chains import Bools
+from .robot.kinematics import Posed, link_frames
 from .robot.robot import SpatialRobot
+from .statics.stretch import stretched
 from .world.guide import GRAIN
 from .world.library import read_world, world_names
 from .world.world import SCHEMA as WORLD_SCHEMA
@@ -30,15 +32,6 @@ NAMED: Final = 5
 """So many things are named, the others counted."""
 
 
-def reaches(robot: SpatialRobot) -> Floats:
-    """Length of each limb from its first joint to its tip when nothing bends it, slides run out [m], shape (limbs,)."""
-    chains = robot.chains
-    lengths = np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1)
-    slides = chains.sliding * np.maximum(np.abs(chains.lower), np.abs(chains.upper))
-    total: Floats = lengths + slides.sum(axis=1)
-    return total
-
-
 def _span(values: Floats, shown: Unit) -> str:
     unit, size, _ = shown
     low, high = float(values.min()) / size, float(values.max()) / size
@@ -52,13 +45,14 @@ def _many(names: list[str]) -> str:
 def inspect_robot(robot: SpatialRobot, units: ShownUnits = SI) -> Finding:
     """Facts of a robot in space, and what is odd about it."""
     chains = robot.chains
-    turning = (np.arange(chains.lower.shape[1]) < chains.n_joints[:, None]) & (chains.sliding == 0)
+    turning = chains.used & (chains.sliding == 0)
+    lengths = np.array([stretched(chains, limb) for limb in range(len(chains.limb_names))])
     limbs = zip(chains.limb_names, robot.contacts, chains.n_joints, strict=True)
     facts = {
         "family": "robot in space",
         "limbs": ", ".join(f"{name} ({contact.kind}, {joints} joints)" for name, contact, joints in limbs),
         "mass": f"{chains.total_mass:.4g} kg, {chains.base_mass:.4g} kg of it the base's",
-        "limbs reach": f"{_span(reaches(robot), units.place)} from their first joints",
+        "limbs reach": f"{_span(lengths, units.place)} from their first joints",
         "model": robot.spec.model,
     }
     if turning.any():
@@ -82,7 +76,7 @@ def _odd_robot(robot: SpatialRobot, units: ShownUnits) -> Iterator[str]:
         ]
         if at_end:
             yield f"limb '{name}': its nominal posture has {_many(at_end)} at an end of the range, where searches have no room"
-        needed = weight / n_limbs * 0.5 * float(reaches(robot)[limb])
+        needed = weight / n_limbs * 0.5 * stretched(chains, limb)
         strongest = float(
             np.where(chains.sliding[limb, : len(joints)] == 1, math.inf, chains.torque[limb, : len(joints)]).max()
         )
@@ -141,12 +135,10 @@ def _nearest(world: World) -> Floats:
     return away
 
 
-def _holds(numbers: list[int]) -> str:
-    return (
-        f"hold {numbers[0]}"
-        if len(numbers) == 1
-        else f"{len(numbers)} holds ({_many([str(number) for number in numbers])})"
-    )
+def _holds(which: Bools) -> str:
+    """In words; holds are numbered from 1."""
+    numbers = [str(index + 1) for index in np.flatnonzero(which)]
+    return f"hold {numbers[0]}" if len(numbers) == 1 else f"{len(numbers)} holds ({_many(numbers)})"
 
 
 def _odd_world(world: World, units: ShownUnits) -> Iterator[str]:
@@ -156,30 +148,26 @@ def _odd_world(world: World, units: ShownUnits) -> Iterator[str]:
     if len(world.holds) > 2:
         away = _nearest(world)
         usual = float(np.median(away))
-        alone = [hold.number for hold, gap in zip(world.holds, away, strict=True) if gap > ALONE * usual]
-        if alone:
+        alone = away > ALONE * usual
+        if alone.any():
             yield (
                 f"{_holds(alone)} far from all others, up to {units.length(float(away.max()))} where holds usually are "
                 f"{units.length(usual)} apart; is a unit or a decimal point wrong?"
             )
     records = world.solid_records
     if len(records):
-        deep = np.min([distances(record, world.places) for record in records], axis=0)
-        ahead = np.min([distances(record, world.places + 2.0 * INSIDE * world.normals) for record in records], axis=0)
-        inside = [hold.number for hold, gap in zip(world.holds, deep, strict=True) if gap < -INSIDE]
-        inward = [
-            hold.number
-            for hold, gap, front in zip(world.holds, deep, ahead, strict=True)
-            if gap >= -INSIDE and front < -INSIDE
-        ]
-        if inside:
+
+        def gaps(places: Floats) -> Floats:
+            nearest: Floats = np.min([distances(record, places) for record in records], axis=0)
+            return nearest
+
+        deep, ahead = gaps(world.places), gaps(world.places + 2.0 * INSIDE * world.normals)
+        inside, inward = deep < -INSIDE, (deep >= -INSIDE) & (ahead < -INSIDE)
+        if inside.any():
             yield f"{_holds(inside)} inside a solid, where links of a limb that takes it are, too"
-        if inward:
+        if inward.any():
             yield f"{_holds(inward)} with a normal that points into a solid; it must point out of the surface"
-        buried = np.min(
-            [distances(record, world.frames[:, :3] + INSIDE * world.frames[:, 9:]) for record in records], axis=0
-        )
-        if (buried < -2.0 * INSIDE).any():
+        if (gaps(world.frames[:, :3] + INSIDE * world.frames[:, 9:]) < -2.0 * INSIDE).any():
             yield "the guide runs through a solid"
 
 

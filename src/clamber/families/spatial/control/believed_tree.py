@@ -19,7 +19,8 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
         robot: The robot.
         gravity: Acceleration of free fall, world frame [m/s^2].
     """
-    chains, parts = robot.chains, parts_of(robot)
+    chains = robot.chains
+    parts = parts_of(robot)
     limbs = len(chains.limb_names)
     joints = [(limb, k) for limb in range(limbs) for k in range(int(chains.n_joints[limb]))]
     bodies = [parts.base, *(parts.links[limb][k] for limb, k in joints)]
@@ -43,12 +44,13 @@ def believed_tree(robot: SpatialRobot, gravity: Sequence[float]) -> Tree:
 
 def joint_limits(robot: SpatialRobot) -> Limits:
     """Limits of all joints; torques are all that the motors have: the share that plans leave is for what they know nothing of."""
-    chains, motors = robot.chains, Motors.of(robot)
+    chains = robot.chains
+    motors = Motors.of(robot)
     return Limits(
         torque=motors.torque,
-        lower=flat(robot, chains.lower),
-        upper=flat(robot, chains.upper),
-        speed=flat(robot, chains.speed),
+        lower=chains.lower[chains.used],
+        upper=chains.upper[chains.used],
+        speed=chains.speed[chains.used],
         friction=motors.friction,
     )
 
@@ -59,10 +61,3 @@ def joint_inertias(tree: Tree, joints: Floats) -> Floats:
     state.joints[:] = joints
     work_out(tree, state, dynamics)
     return np.diag(dynamics.mass)[FREE:].copy()
-
-
-def flat(robot: SpatialRobot, table: Floats) -> Floats:
-    """Joint by joint, limb after limb, of a table of shape (limbs, most joints)."""
-    chains = robot.chains
-    made: Floats = np.array(table[np.arange(table.shape[1]) < chains.n_joints[:, None]], np.float64)
-    return made

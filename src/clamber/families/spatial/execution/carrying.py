@@ -200,7 +200,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     def _without_holds(self, action: Motion) -> bool:
         """After a hold that can't be had: have its limb on another, and go on from there; whether that can be done."""
-        off, at = self._in_air(), self._nearest(action)
+        off = self._in_air()
+        at = self._nearest(action)
         if len(off) != 1:  # no plan begins with fewer limbs on holds
             return False
         (limb,), hold = off, int(at.holds[off[0]])
@@ -327,7 +328,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     def end(self) -> None:
         """See `Performer`."""
-        report, state = self.report, self.body.law.state
+        report = self.report
+        state = self.body.law.state
         report.off, report.torque = self.body.peaks.tolist()
         report.failures, report.findings = self.body.law.failures, list(self.body.watch.monitor.findings)
         report.pose = pose_of(state.position, state.rotation)

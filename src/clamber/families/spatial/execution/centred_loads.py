@@ -65,7 +65,8 @@ class LoadCentre:
     """
 
     def __init__(self, robot: SpatialRobot, world: World) -> None:
-        self._robot, self._world = robot, world
+        self._robot = robot
+        self._world = world
         self._tree = tree = believed_tree(robot, world.gravity)
         self._state, self._dynamics = State.of(tree), Dynamics.of(tree)
         self._torque = joint_limits(robot).torque

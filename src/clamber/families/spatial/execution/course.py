@@ -1,6 +1,6 @@
 """A plan of a robot in space as what is carried out in one go: motions of the body over its holds, and limbs that take other holds."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Self, TypeAlias
@@ -11,7 +11,6 @@ from ....planning.problem.plan import Plan
 from ....planning.problem.problem import Replay
 from ....planning.problem.problems import plan_family
 from ....types import Floats, Ints
-from ..control.believed_tree import flat
 from ..planning.records import HEIGHT, PITCH, ROLL
 from ..planning.swing_loads import SwingLoads
 from ..planning.task import SpatialTask
@@ -60,6 +59,11 @@ class BodyMotion:
         return self.way[0]
 
     @property
+    def end(self) -> Standing:
+        """Where it ends."""
+        return self.way[-1]
+
+    @property
     def last(self) -> int:
         """Number of the plan's action that it ends with."""
         return self.first + len(self.way) - 2
@@ -83,6 +87,11 @@ class Regrab:
     def start(self) -> Standing:
         """Where it begins."""
         return self.before
+
+    @property
+    def end(self) -> Standing:
+        """Where it ends."""
+        return self.after
 
     @property
     def last(self) -> int:
@@ -127,6 +136,16 @@ class Course:
                 motions.append(BodyMotion(k + 1, (before, after)))
         return cls(standings[0], tuple(motions))
 
+    def changed(self, standing: Callable[[Standing], Standing], regrab: Callable[[Regrab], Regrab]) -> "Course":
+        """The same motions with other stances, and what else of regrabs is another then."""
+
+        def motion(one: Motion) -> Motion:
+            if isinstance(one, Regrab):
+                return regrab(replace(one, before=standing(one.before), after=standing(one.after)))
+            return replace(one, way=tuple(map(standing, one.way)))
+
+        return Course(standing(self.start), tuple(map(motion, self.motions)))
+
 
 def grabs(task: SpatialTask, plan: Plan) -> list[tuple[int, int]]:
     """Index of a limb and of its hold: those of the start, then those that the plan takes, in its order."""
@@ -143,12 +162,12 @@ def _centred(standing: Standing, centre: LoadCentre) -> Standing:
 
 
 def _standing(task: SpatialTask, stance: np.void) -> Standing:
-    limbs = len(task.robot.chains.limb_names)
-    most = task.robot.chains.lower.shape[1]
+    used = task.robot.chains.used
+    limbs, most = used.shape
     turn = np.array(stance["turn"], np.float64).reshape(3, 3)
     return Standing(
         Pose(turn, np.array(stance["place"], np.float64)),
-        flat(task.robot, np.asarray(stance["q"])[:limbs, :most]),
+        np.asarray(stance["q"])[:limbs, :most][used],
         np.array(stance["hold"][:limbs], np.int32),
         np.array(stance["wrench"][:limbs], np.float64),
         along=float(stance["x"]),

@@ -90,30 +90,11 @@ class FaultySpatial(PlantLayer[SpatialPlant, SpatialTruth | None]):
         real, told, injector = self.plant.sense(), self.sensed, self._injector
         fault, n, at = injector.fault, self._n, injector.fault.channel
         self._real = real
-        parts = (
-            real.joints[0],
-            real.torques,
-            real.gyro,
-            real.accelerometer,
-            real.wrenches.ravel(),
-            real.joints[1],
-            real.closed,
-            real.shutting,
-        )
-        number = int(real.number[0])
-        values, number = injector.read(np.concatenate(parts), number)
+        parts = _side_by_side(real)
+        values, number = injector.read(np.concatenate(parts), int(real.number[0]))
         ends = np.cumsum([part.size for part in parts])
-        (
-            told.joints[0],
-            told.torques[:],
-            told.gyro[:],
-            told.accelerometer[:],
-            wrenches,
-            told.joints[1],
-            told.closed[:],
-            told.shutting[:],
-        ) = np.split(values, ends[:-1])
-        told.wrenches[:] = wrenches.reshape(-1, 6)
+        for to, part in zip(_side_by_side(told), np.split(values, ends[:-1]), strict=True):
+            to[:] = part
         told.number[0] = number
         if fault.target == "sensor" and at < n:
             told.joints[1, at] = injector.speed(float(told.joints[0, at]), float(real.joints[1, at]))
@@ -156,3 +137,10 @@ class FaultySpatial(PlantLayer[SpatialPlant, SpatialTruth | None]):
             torques = self._own.torques(torques, *self._real.joints)
         self.plant.actuate(injector.weaken(torques.copy(), np.zeros(self._n)))
         step_on(self.plant, injector.passed())
+
+
+def _side_by_side(sensed: SpatialSensed) -> tuple[Floats | Ints, ...]:
+    """Readings as `sensor_names` has them, then what no sensor of those tells, as views."""
+    angles, speeds = sensed.joints
+    wrenches = sensed.wrenches.reshape(-1)
+    return angles, sensed.torques, sensed.gyro, sensed.accelerometer, wrenches, speeds, sensed.closed, sensed.shutting

@@ -10,7 +10,7 @@ from ....files import Document
 from ....types import Floats
 from ..planning.task import SpatialTask, Start, build_task
 from ..robot.chains import Chains
-from .course import Course, Motion, Regrab, Standing
+from .course import Course, Standing
 from .run_trace import Named
 
 
@@ -66,13 +66,7 @@ def without(course: Course, instead: dict[int, int]) -> Course:
     def standing(at: Standing) -> Standing:
         return replace(at, holds=np.array([instead.get(int(hold), int(hold)) for hold in at.holds], np.int32))
 
-    def motion(one: Motion) -> Motion:
-        if isinstance(one, Regrab):
-            hold = instead.get(one.hold, one.hold)
-            return replace(one, hold=hold, before=standing(one.before), after=standing(one.after))
-        return replace(one, way=tuple(map(standing, one.way)))
-
-    return Course(standing(course.start), tuple(map(motion, course.motions)))
+    return course.changed(standing, lambda one: replace(one, hold=instead.get(one.hold, one.hold)))
 
 
 def without_limb(task: SpatialTask, limb: str, places: Mapping[str, float]) -> SpatialTask | None:
@@ -120,13 +114,8 @@ def widened(course: Course, chains: Chains, whole: Chains, posture: Floats) -> C
 
     def standing(at: Standing) -> Standing:
         holds, all_joints = np.full(len(whole.limb_names), -1, np.int32), posture.copy()
-        holds[limbs], all_joints[joints] = at.holds, at.joints
+        holds[limbs] = at.holds
+        all_joints[joints] = at.joints
         return replace(at, holds=holds, joints=all_joints, loads=loads(at.loads))
 
-    def motion(one: Motion) -> Motion:
-        if isinstance(one, Regrab):
-            before, after = standing(one.before), standing(one.after)
-            return replace(one, limb=limbs[one.limb], before=before, after=after, loads=loads(one.loads))
-        return replace(one, way=tuple(map(standing, one.way)))
-
-    return Course(standing(course.start), tuple(map(motion, course.motions)))
+    return course.changed(standing, lambda one: replace(one, limb=limbs[one.limb], loads=loads(one.loads)))

@@ -32,8 +32,8 @@ def sensor_names(robot: SpatialRobot) -> tuple[str, ...]:
 def sensor_ranges(robot: SpatialRobot) -> Floats:
     """What each of these sensors covers, by the robot's own size, weight and motors, shape (sensors,)."""
     chains, pace, limbs = robot.chains, Pace.of(robot), len(robot.chains.limb_names)
-    used = np.arange(chains.lower.shape[1]) < chains.n_joints[:, None]
-    span = np.where(np.isfinite(chains.upper - chains.lower), chains.upper - chains.lower, math.tau)[used]
+    span = (chains.upper - chains.lower)[chains.used]
+    span = np.where(np.isfinite(span), span, math.tau)
     turning, weight = 2.0 * TURNS * math.sqrt(2.0 * GRAVITY / pace.size), pace.weight
     imu, tip = [turning] * 3 + [2.0 * PUSHES * GRAVITY] * 3, [weight] * 3 + [LEVER * pace.size * weight] * 3
     return np.concatenate((span, 2.0 * Motors.of(robot).torque, imu, tip * limbs))

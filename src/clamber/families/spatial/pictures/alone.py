@@ -11,12 +11,12 @@ from ....units import GRAVITY
 from ....viewing.alone import Alone
 from ....viewing.scene import halo
 from ..planning.task import Lattice, Rules, SpatialTask, Start
+from ..robot.kinematics import Posed, centre_of_mass, link_frames
 from ..robot.robot import SpatialRobot, build_robot
 from ..world.guide import GRAIN, Waypoint
 from ..world.solids import Plane
 from ..world.world import World
 from .camera import camera_for
-from .geometry import Posed, centre_of_mass, link_frames
 from .moments import SWINGING, Moment
 from .robot_artists import RobotArtists, limb_colour
 from .spatial_view import robot_corners
@@ -49,7 +49,7 @@ def robot_alone(robot: SpatialRobot, document: Json) -> Alone:
     chains = robot.chains
     level = link_frames(chains, Posed(np.zeros(3), np.eye(3), chains.nominal))
     lowest = min(float(level.origins[..., 2].min()), -float(chains.base_half[2]))
-    reach = max(float(np.linalg.norm(chains.offset[:, 1:], axis=2).sum(axis=1).max()), GRAIN)
+    reach = max(chains.longest_limb, GRAIN)
     at = Posed(np.array((reach, 0.0, -lowest)), np.eye(3), chains.nominal)
     floor = (
         Waypoint(at=(0.0, 0.0, 0.0), normal=(0.0, 0.0, 1.0)),
@@ -68,7 +68,7 @@ def robot_alone(robot: SpatialRobot, document: Json) -> Alone:
 
     def draw(axes: Axes) -> None:
         draw_world(axes, task, camera, shown, bounds)
-        RobotArtists(axes, task, camera, max(bounds[1] - bounds[0], bounds[3] - bounds[2])).update(moment)
+        RobotArtists(axes, task, camera, bounds).update(moment)
         for limb, (name, tip) in enumerate(zip(chains.limb_names, camera.flat(moment.tips), strict=True)):
             axes.annotate(
                 name,
@@ -97,7 +97,8 @@ def _floor_about(places: Floats) -> Floats:
 def _unloaded(task: SpatialTask, at: Posed) -> Moment:
     """A robot that touches nothing."""
     chains = task.robot.chains
-    frames, limbs = link_frames(chains, at), len(chains.limb_names)
+    frames = link_frames(chains, at)
+    limbs = len(chains.limb_names)
     return Moment(
         at,
         np.zeros(6),

@@ -11,8 +11,9 @@ from ....viewing.browser.inputs import by_hand, refusal, set_input
 from ....viewing.browser.panel_html import message_html
 from ....viewing.scene import length_unit
 from ..planning.task import SpatialTask
+from ..robot.bodies import rotation
+from ..robot.kinematics import quaternions
 from ..world.solids import frame_about, unit
-from .geometry import quaternions
 from .hold_draft import HoldDraft
 from .space import WorldScene
 
@@ -143,7 +144,8 @@ class HoldPanel:
         number = self.picked()
         if number is None:
             return
-        place, normal = np.array(event.target.position), turned_z(np.array(event.target.wxyz))
+        place, wxyz = np.array(event.target.position), np.array(event.target.wxyz)
+        normal = rotation(wxyz / np.linalg.norm(wxyz))[:, 2]
         self.draft.move(number, place)
         self.draft.turn(number, normal)
         self._show(place, normal)
@@ -170,9 +172,3 @@ class HoldPanel:
         self.draft.remove(number)
         self.pick(min(number, len(self.draft.holds)) or None)
         self.apply()
-
-
-def turned_z(wxyz: Floats) -> Floats:
-    """Where a rotation turns the z axis."""
-    w, x, y, z = wxyz / np.linalg.norm(wxyz)
-    return np.array((2.0 * (x * z + w * y), 2.0 * (y * z - w * x), 1.0 - 2.0 * (x * x + y * y)))

@@ -12,8 +12,7 @@ from ....viewing.recording import Part
 from ..execution.references import TipPath
 from ..planning.plans import poses_of
 from ..planning.task import SpatialTask
-from ..statics.judging import lift_between
-from .geometry import (
+from ..robot.kinematics import (
     LinkFrames,
     Posed,
     body_between,
@@ -23,6 +22,7 @@ from .geometry import (
     posed,
     swing_between,
 )
+from ..statics.judging import lift_between
 
 SWINGING: Final = -1
 """In place of a hold's index, of a limb that is on its way."""
@@ -71,7 +71,8 @@ def settled_moments(task: SpatialTask, stances: Records, shares: Floats | None =
         stances: Records of `planning.records.STANCE`, shape (n,).
         shares: Of the checks of each, shape (n, checks).
     """
-    chains, world = task.robot.chains, task.world
+    chains = task.robot.chains
+    world = task.world
     n_limbs = len(chains.limb_names)
     body = posed(chains, stances)
     frames = link_frames(chains, body)
@@ -115,7 +116,8 @@ class Between:
         ]
         if not moved:
             return [Part("move", lambda share, way: self.body(share))]
-        limb, path = moved[0], self._path(moved[0])
+        limb = moved[0]
+        path = self._path(moved[0])
         line = np.array([path.at(share)[0] for share in np.linspace(0.0, 1.0, 33)])
         wrenches = self.loads(limb)
         return [Part("swing", lambda share, way: self.swing(limb, path.at(share)[0], line, wrenches, share))]

@@ -1,4 +1,4 @@
-"""How robots in space are drawn: a stance, a whole plan, and what needs a camera."""
+"""How robots in space are drawn: a stance, a whole plan, a map of the guide rolled out, and what needs a camera."""
 
 from itertools import pairwise
 from typing import Final
@@ -8,24 +8,27 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
 
 from ....planning.problem.problem import Replay
 from ....planning.problem.problems import normalisation_of
+from ....tasks.regions import GoalBox
 from ....types import Floats
 from ....viewing import style
-from ....viewing.pictures import Pictures
+from ....viewing.pictures import Chart, Pictures
 from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
-from ....viewing.scene import Bounds
+from ....viewing.scene import GOAL_WORDS, Bounds, goal_box, halo
 from ....viewing.view import Layout
+from ..planning.surface import on_guide
 from ..planning.task import SpatialTask
+from ..world.guide import GRAIN
 from .alone import robot_alone, world_alone
 from .camera import Camera, camera_for
-from .chart import CHART
 from .moments import Moment, settled_moments
-from .robot_artists import RobotArtists, limb_colour, mixed
+from .robot_artists import RobotArtists, limb_colour
 from .run_view import RunPicture, RunView
 from .spatial_view import SpatialView, describe_pose, stance_bounds
-from .world_artists import discs, draw_world, hold_radii
+from .world_artists import discs, draw_world, goal_label, hold_radii, mixed, set_axes
 
 GHOSTS: Final = 3
 """Stances that are drawn between start and end of a whole plan, at most."""
@@ -38,7 +41,7 @@ def draw_stance(task: SpatialTask, stance: np.void, axes: Axes, camera: Camera) 
     moments = settled_moments(task, np.array([stance]))
     shown, bounds = stance_bounds(task, camera, moments)
     draw_world(axes, task, camera, shown, bounds)
-    RobotArtists(axes, task, camera, max(bounds[1] - bounds[0], bounds[3] - bounds[2])).update(moments[0])
+    RobotArtists(axes, task, camera, bounds).update(moments[0])
 
 
 def draw_route(task: SpatialTask, replay: Replay, camera: Camera) -> Figure:
@@ -49,12 +52,11 @@ def draw_route(task: SpatialTask, replay: Replay, camera: Camera) -> Figure:
     subtitle = f"{task.title or task.name}. Line: path of the body, dark at the start"
     figure, wall, panel, _ = layout.figure(f"The whole plan: {len(replay.reasons)} actions", subtitle)
     draw_world(wall, task, camera, shown, bounds)
-    size = max(bounds[1] - bounds[0], bounds[3] - bounds[2])
     _mark_used(wall, task, camera, moments, bounds)
     path = np.array([at.body.place for at in moments])
     flat, last = camera.flat(path), len(moments) - 1
     for k in pick_ghosts(flat, GHOSTS) if last else [0]:
-        RobotArtists(wall, task, camera, size, 1.0 if k == last else GHOST).update(moments[k])
+        RobotArtists(wall, task, camera, bounds, 1.0 if k == last else GHOST).update(moments[k])
         if k < last:
             label_ghost(wall, k, *flat[k].tolist())
     if last:
@@ -113,6 +115,36 @@ def draw_bare_world(axes: Axes, task: SpatialTask, bounds: Bounds, camera: Camer
     draw_world(axes, task, camera, np.vstack((task.world.places, task.world.frames[:, :3])), bounds)
 
 
+def hold_places(task: SpatialTask) -> Floats:
+    """Along and across of the holds, shape (n, 2) [m]."""
+    return on_guide(task.world.frames, task.world.places)[:, :2]
+
+
+def draw_chart(axes: Axes, task: SpatialTask, bounds: Bounds) -> None:
+    """Guide, goals and holds on given axes."""
+    set_axes(axes, bounds)
+    axes.set_xlabel("along the guide [m]", fontsize=8, color=style.QUIET)
+    axes.set_ylabel("across [m]", fontsize=8, color=style.QUIET)
+    axes.tick_params(labelsize=7, colors=style.QUIET, length=2.5)
+    axes.plot(
+        [0.0, GRAIN * (len(task.world.frames) - 1)], [0.0, 0.0], color=style.QUIET, lw=0.9, ls=(0, (5, 4)), zorder=1.5
+    )
+    for k, goal in enumerate(task.goals):
+        along_min, along_max, across_min, across_max = goal.box
+        corners = goal_box(GoalBox(x_min=along_min, x_max=along_max, y_min=across_min, y_max=across_max), bounds)
+        if corners is None:
+            continue
+        last = k == len(task.goals) - 1
+        axes.add_patch(Polygon(corners, fc=style.GOAL, ec="none", alpha=0.3 if last else 0.15, zorder=0.5))
+        axes.add_patch(Polygon(corners, fc="none", ec=style.GOAL, lw=1.1, zorder=1.05))
+        left, top = corners.min(axis=0)[0], corners.max(axis=0)[1]
+        axes.annotate(
+            goal_label(task, k), (left, top), xytext=(4, -4), textcoords="offset points", va="top", fontsize=8,
+            color=GOAL_WORDS, zorder=7, path_effects=[halo(2.0)],
+        )  # fmt: skip
+    axes.plot(*hold_places(task).T, marker=".", ms=2.6, color=style.HOLD, ls="", zorder=1.3)
+
+
 def pictures_from(asked: str | None) -> Pictures:
     """Pictures from a camera (`camera.camera_for`); None: from one that suits each world."""
     return Pictures(
@@ -124,7 +156,7 @@ def pictures_from(asked: str | None) -> Pictures:
         run=lambda run: RunPicture(RunView(run.task, run.trace, camera_for(run.task, asked))),
         robot_alone=robot_alone,
         world_alone=world_alone,
-        chart=CHART,
+        chart=Chart(hold_places, draw_chart),
         seen_from=pictures_from,
     )
 

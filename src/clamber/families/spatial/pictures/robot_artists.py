@@ -12,10 +12,11 @@ from matplotlib.lines import Line2D
 
 from ....types import Floats
 from ....viewing import style
+from ....viewing.scene import Bounds
 from ..planning.task import SpatialTask
 from .camera import Camera
 from .moments import Moment
-from .world_artists import discs
+from .world_artists import Colour, discs, larger_side, mixed
 
 ROUND: Final = 9
 """Corners of each end of a link's outline."""
@@ -32,7 +33,6 @@ ARROW: Final = 1.1
 SMALLEST: Final = 0.015
 """Smaller forces, over the weight, are not drawn [-]."""
 RIM: Final = "#2B3945"
-Colour = tuple[float, float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,19 +45,6 @@ class Patch:
     """Corners in the picture's plane, shape (n, 2) [m]."""
     face: Colour
     edge: Colour
-
-
-def mixed(colour: str | Colour, other: str | Colour, share: float) -> Colour:
-    """A colour with a share of another."""
-    a, b = (_rgb(one) for one in (colour, other))
-    red, green, blue = a + share * (b - a)
-    return float(red), float(green), float(blue)
-
-
-def _rgb(colour: str | Colour) -> Floats:
-    if isinstance(colour, str):
-        return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0
-    return np.array(colour)
 
 
 def stadiums(ends: Floats, radii: Floats) -> Floats:
@@ -82,15 +69,11 @@ def limb_colour(limb: int) -> str:
     return style.PARTS[limb % len(style.PARTS)]
 
 
-def longest_limb(task: SpatialTask) -> float:
-    """Length of the longest limb when stretched, slides not run out [m]."""
-    return float(np.linalg.norm(task.robot.chains.offset[:, 1:], axis=2).sum(axis=1).max())
-
-
 def force_scale(task: SpatialTask) -> float:
     """Length of the arrow of a force of 1 N [m]."""
-    weight = task.robot.chains.total_mass * float(np.linalg.norm(task.world.gravity)) or task.robot.chains.total_mass
-    return ARROW * longest_limb(task) / weight
+    chains = task.robot.chains
+    weight = chains.total_mass * float(np.linalg.norm(task.world.gravity)) or chains.total_mass
+    return ARROW * chains.longest_limb / weight
 
 
 class RobotArtists:
@@ -100,13 +83,13 @@ class RobotArtists:
         axes: The picture's.
         task: Robot and world.
         camera: From where it is seen.
-        size: Larger side of the picture [m].
+        bounds: Of the picture's plane.
         alpha: Of everything; a ghost has less, and shows no forces.
     """
 
-    def __init__(self, axes: Axes, task: SpatialTask, camera: Camera, size: float, alpha: float = 1.0) -> None:
-        self._task, self._camera, self._size, self._chains = task, camera, size, task.robot.chains
-        self._radii = np.maximum(self._chains.radius, LEAST_LINK * size)
+    def __init__(self, axes: Axes, task: SpatialTask, camera: Camera, bounds: Bounds, alpha: float = 1.0) -> None:
+        self._task, self._camera, self._size, self._chains = task, camera, larger_side(bounds), task.robot.chains
+        self._radii = np.maximum(self._chains.radius, LEAST_LINK * self._size)
         self._loaded = alpha >= 1.0
         order = 4.0 if self._loaded else 3.0
         self.marks = PolyCollection([], linewidths=1.4, alpha=alpha, zorder=order)
@@ -222,7 +205,7 @@ class RobotArtists:
     def _arrows(self, at: Moment) -> Floats:
         """Outlines of the contact forces on the tips, shape (n, 7, 2)."""
         forces = np.nan_to_num(at.wrenches[:, :3]) * force_scale(self._task)
-        seen = np.linalg.norm(forces, axis=1) > SMALLEST * ARROW * longest_limb(self._task)
+        seen = np.linalg.norm(forces, axis=1) > SMALLEST * ARROW * self._chains.longest_limb
         return arrows(self._camera.flat(at.tips[seen]), self._camera.flat(forces[seen]), 0.0034 * self._size)
 
 

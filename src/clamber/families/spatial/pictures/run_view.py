@@ -14,19 +14,19 @@ from ....viewing.view import Picture
 from ..execution.run_trace import RunTrace
 from ..planning.task import SpatialTask
 from ..robot.bodies import rotation
+from ..robot.kinematics import LinkFrames, Posed, centre_of_mass, link_frames
 from .camera import Camera
-from .geometry import LinkFrames, Posed, centre_of_mass, link_frames
 from .moments import SWINGING, Moment
 from .robot_artists import RobotArtists
 from .spatial_view import (
     describe_holds,
-    draw_key,
+    draw_film,
     force_gauges,
     shown_places,
     torque_gauges,
     used_torques,
 )
-from .world_artists import draw_world, picture_bounds
+from .world_artists import picture_bounds
 
 SHOWN: Final = 60
 """Moments by which the picture's bounds are chosen, at most."""
@@ -114,19 +114,17 @@ class RunView(View[Moment]):
 
     def draw(self, picture: Picture[Moment]) -> RobotArtists:
         """See `View`."""
-        draw_world(picture.wall, self.task, self.camera, self.shown, self.bounds)
-        draw_key(picture.panel, picture.key.left, picture.key.top, self.task, 1.0 / picture.layout.scale)
-        size = max(self.bounds[1] - self.bounds[0], self.bounds[3] - self.bounds[2])
-        return RobotArtists(picture.wall, self.task, self.camera, size)
+        return draw_film(picture, self.task, self.camera, self.shown)
 
     def _moment(self, row: int) -> Moment:
         """The robot at a sample, truly where that is told."""
         trace, chains = self.trace, self.task.robot.chains
-        limbs, most = chains.lower.shape
+        limbs = len(chains.limb_names)
+        used = chains.used
         pose = trace.believed[row] if trace.true_pose is None else trace.true_pose[row]
         flat = trace.joints[row] if trace.true_joints is None else trace.true_joints[row]
-        used = np.arange(most) < chains.n_joints[:, None]
-        q, torques = np.zeros((limbs, most)), np.zeros((limbs, most))
+        q = np.zeros(used.shape)
+        torques = np.zeros(used.shape)
         q[used], torques[used] = flat, trace.torques[row]
         body = Posed(pose[:3], rotation(pose[3:]), q)
         frames: LinkFrames = link_frames(chains, body)
@@ -172,9 +170,8 @@ class RunPicture(Picture[Moment]):
     def whole(self) -> Figure:
         """The end, some moments before it, and the way of the body."""
         view = self.view
-        size = max(view.bounds[1] - view.bounds[0], view.bounds[3] - view.bounds[2])
         for time in np.linspace(0.0, view.seconds, GHOSTS + 1)[:-1]:
-            RobotArtists(self.wall, view.task, view.camera, size, 0.35).update(view.at(float(time)))
+            RobotArtists(self.wall, view.task, view.camera, view.bounds, 0.35).update(view.at(float(time)))
         trace = view.trace
         draw_way(self.wall, view.camera.flat((trace.believed if trace.true_pose is None else trace.true_pose)[:, :3]))
         return self.figure

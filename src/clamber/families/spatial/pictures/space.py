@@ -1,5 +1,6 @@
 """A world and a robot in the viewer's space: surfaces, holds, guide and goals; links in their own shapes, contact forces as arrows."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -9,10 +10,10 @@ from ....types import Floats, Ints
 from ....viewing import style
 from ....viewing.browser.solids import Figure, Mesh, Sticks, ball, colour
 from ..planning.task import SpatialTask
-from ..robot.tree import Frame, Posture, Shape
-from .geometry import LinkFrames, Posed, link_frames, quaternions
+from ..robot.kinematics import LinkFrames, Posed, quaternions
+from ..robot.parts import parts_of
 from .moments import SWINGING, Moment
-from .robot_artists import ARROW, SMALLEST, force_scale, limb_colour, longest_limb
+from .robot_artists import ARROW, SMALLEST, force_scale, limb_colour
 from .surfaces import Face, surfaces_of
 from .world_artists import goal_label, goal_strip
 
@@ -65,7 +66,8 @@ class WorldScene:
     """
 
     def __init__(self, server: "viser.ViserServer", task: SpatialTask, shown: Floats) -> None:
-        self._server, self.task = server, task
+        self._server = server
+        self.task = task
         self.size = float(np.ptp(shown, axis=0).max())
         """Largest extent of what is shown [m]."""
         self.root = server.scene.add_frame("/world", show_axes=False)
@@ -146,55 +148,38 @@ class WorldScene:
         self.root.remove()
 
 
-def hull(shapes: list[Shape], frames: list[Frame]) -> Mesh:
-    """Convex hulls of shapes as one mesh, each in a frame of its own."""
+def hull(shapes: Sequence[tuple[Floats, float]]) -> Mesh:
+    """Convex hulls of shapes as one mesh: of each its points, shape (n, 3), and the radius by which they are blown up [m]."""
     vertices: list[Floats] = []
     faces: list[Ints] = []
     sphere = ball()[0]
     first = 0
-    for shape, frame in zip(shapes, frames, strict=True):
-        points = np.array(shape.points)
-        if shape.radius > 0.0:
-            points = (points[:, None] + shape.radius * sphere).reshape(-1, 3)
+    for bare, radius in shapes:
+        points = (bare[:, None] + radius * sphere).reshape(-1, 3) if radius > 0.0 else bare
         if len(points) < 4 or float(np.linalg.svd(points - points.mean(axis=0), compute_uv=False)[-1]) < 1e-6:
             continue
-        found = ConvexHull(points)
-        corners, triangles = points[found.vertices], np.searchsorted(found.vertices, found.simplices)
-        a, b, c = (corners[triangles[:, k]] for k in range(3))
-        inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0.0
-        triangles[inward] = triangles[inward][:, ::-1]
-        vertices.append(frame.place + corners @ frame.axes.T)
+        corners, triangles = convex(points)
+        vertices.append(corners)
         faces.append(triangles + first)
         first += len(corners)
     return (np.concatenate(vertices), np.concatenate(faces)) if vertices else (np.zeros((0, 3)), np.zeros((0, 3), int))
 
 
+def convex(points: Floats) -> Mesh:
+    """The convex hull of points, its triangles anticlockwise seen from outside."""
+    found = ConvexHull(points)
+    corners, triangles = points[found.vertices], np.searchsorted(found.vertices, found.simplices)
+    a, b, c = (corners[triangles[:, k]] for k in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), found.equations[:, :3]) < 0.0
+    triangles[inward] = triangles[inward][:, ::-1]
+    return corners, triangles
+
+
 def body_meshes(task: SpatialTask) -> dict[tuple[int, int], Mesh]:
     """Shapes of the model by the frame that they move with: limb and link, or (-1, -1) for the base; empty where it has none."""
-    robot, chains = task.robot, task.robot.chains
-    tree = robot.tree
-    of_joint = {name: (limb, k) for limb, names in enumerate(chains.joint_names) for k, name in enumerate(names)}
-    owner: dict[str, tuple[int, int]] = {}
-    for link in tree.links:
-        own = [of_joint[joint.name] for joint in tree.joints_of(link.name) if joint.name in of_joint]
-        owner[link.name] = own[-1] if own else owner.get(link.parent or "", (-1, -1))
-    held = {joint.name: joint.held or 0.0 for joint in tree.joints if joint.name not in of_joint}
-    held |= {name: reading.value for name, reading in robot.spec.trunk.items()}
-    posture = Posture.of(tree, held)
-    base = posture.frame(tree.links[0])
-    zero = link_frames(chains, Posed(np.zeros(3), np.eye(3), np.zeros(chains.lower.shape)))
-    found: dict[tuple[int, int], tuple[list[Shape], list[Frame]]] = {}
-    for shape in tree.shapes:
-        limb, k = owner[shape.link]
-        frame = posture.frame(tree.link(shape.link))
-        at = Frame(base.within(frame.place), base.axes.T @ frame.axes)
-        if limb >= 0:
-            moved = Frame(zero.origins[limb, k], zero.axes[limb, k])
-            at = Frame(moved.within(at.place), moved.axes.T @ at.axes)
-        shapes, frames = found.setdefault((limb, k), ([], []))
-        shapes.append(shape)
-        frames.append(at)
-    meshes = {key: hull(*of) for key, of in found.items()}
+    parts = parts_of(task.robot)
+    own = {(limb, k): part for limb, links in enumerate(parts.links) for k, part in enumerate(links)}
+    meshes = {key: hull(part.shapes) for key, part in ({(-1, -1): parts.base} | own).items()}
     return {key: mesh for key, mesh in meshes.items() if len(mesh[1])}
 
 
@@ -203,8 +188,9 @@ class SpatialFigure(Figure):
 
     def __init__(self, server: "viser.ViserServer", name: str, task: SpatialTask, opacity: float = 1.0) -> None:
         super().__init__(server, name, opacity)
-        self._task, chains = task, task.robot.chains
-        self._length = longest_limb(task)
+        self._task = task
+        chains = task.robot.chains
+        self._length = chains.longest_limb
         self._nodes = {
             key: self.rigid(
                 f"parts/{key[0] + 1} {key[1] + 1}", mesh, colour(BASE if key[0] < 0 else limb_colour(key[0]))
@@ -257,10 +243,4 @@ class SpatialFigure(Figure):
 
 def box_mesh(half: Floats) -> Mesh:
     """A box about the origin."""
-    corners = np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]) * half
-    faces = ConvexHull(corners)
-    triangles = faces.simplices.copy()
-    a, b, c = (corners[triangles[:, k]] for k in range(3))
-    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), faces.equations[:, :3]) < 0.0
-    triangles[inward] = triangles[inward][:, ::-1]
-    return corners, triangles
+    return convex(np.array([(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]) * half)

@@ -21,7 +21,7 @@ from ..planning.task import SpatialTask
 from ..world.patterns import frame_at
 from .camera import Camera, stretch
 from .moments import SWINGING, Between, Moment, settled_moments
-from .robot_artists import RobotArtists, arrows, force_scale, limb_colour, longest_limb
+from .robot_artists import RobotArtists, arrows, force_scale, limb_colour
 from .surfaces import round_length
 from .world_artists import HOLDS, draw_world, picture_bounds
 
@@ -94,10 +94,15 @@ class SpatialView(PlanView[Moment]):
 
     def draw(self, picture: Picture[Moment]) -> RobotArtists:
         """World and robot."""
-        draw_world(picture.wall, self.task, self.camera, self.shown, self.bounds)
-        draw_key(picture.panel, picture.key.left, picture.key.top, self.task, 1.0 / picture.layout.scale)
-        size = max(self.bounds[1] - self.bounds[0], self.bounds[3] - self.bounds[2])
-        return RobotArtists(picture.wall, self.task, self.camera, size)
+        return draw_film(picture, self.task, self.camera, self.shown)
+
+
+def draw_film(picture: Picture[Moment], task: SpatialTask, camera: Camera, shown: Floats) -> RobotArtists:
+    """The world of a film on its picture, what marks mean, and the robot's artists."""
+    bounds = picture.view.bounds
+    draw_world(picture.wall, task, camera, shown, bounds)
+    draw_key(picture.panel, picture.key.left, picture.key.top, task, 1.0 / picture.layout.scale)
+    return RobotArtists(picture.wall, task, camera, bounds)
 
 
 def shown_places(task: SpatialTask, moments: list[Moment]) -> Floats:
@@ -120,7 +125,10 @@ def way_places(task: SpatialTask, *alongs: float) -> Floats:
     way = np.array([frame_at(task.world.frames, along) for along in np.linspace(*ends, WAY_POINTS)])
     body = way[:, :3] + task.start.height * way[:, 9:]
     places = task.world.places
-    near = np.array([np.linalg.norm(way[:, :3] - place, axis=1).min() for place in places]) < ROOM * longest_limb(task)
+    near = (
+        np.array([np.linalg.norm(way[:, :3] - place, axis=1).min() for place in places])
+        < ROOM * task.robot.chains.longest_limb
+    )
     return np.vstack([places[near], way[:, :3], body])
 
 
@@ -183,7 +191,7 @@ def torque_gauges(task: SpatialTask) -> Gauges:
 def used_torques(task: SpatialTask, torques: Floats) -> Floats:
     """Torques as shares of their limits, a value for each bar of `torque_gauges`."""
     chains = task.robot.chains
-    used = np.arange(torques.shape[1]) < chains.n_joints[:, None]
+    used = chains.used
     shares = np.where(used, np.abs(torques) / np.where(used, chains.torque, 1.0), 0.0)
     if int(chains.n_joints.sum()) > MOST_TORQUES:
         largest: Floats = shares.max(axis=1)

@@ -46,8 +46,6 @@ class Surfaces:
     """Ends of the grid's lines, world frame [m], shape (n, 2, 3)."""
     line_normals: Floats
     """Of the faces that the lines are on, shape (n, 3)."""
-    cell: float
-    """Width of the grid's cells [m]."""
 
 
 def round_length(about: float) -> float:
@@ -91,7 +89,7 @@ def surfaces_of(world: World, shown: Floats) -> Surfaces:
         for corners, normal in made:
             faces.append(Face(corners, normal, k))
     return Surfaces(
-        tuple(faces), np.concatenate([np.zeros((0, 2, 3)), *lines]), np.concatenate([np.zeros((0, 3)), *normals]), cell
+        tuple(faces), np.concatenate([np.zeros((0, 2, 3)), *lines]), np.concatenate([np.zeros((0, 3)), *normals])
     )
 
 
@@ -202,12 +200,11 @@ class Ribbon:
 
     def edges(self) -> tuple[Floats, Floats]:
         """Both edges, world frame [m], shape (n, 3) each."""
-        right, left = (self.at(np.full(len(self.frames), side)) for side in (self.right, self.left))
-        return right, left
+        return self.at(self.right), self.at(self.left)
 
-    def at(self, across: Floats) -> Floats:
-        """Places across the guide at each frame [m], shape (n, 3)."""
-        made: Floats = self.frames[:, :3] + across[:, None] * self.frames[:, 6:9] + self.height * self.frames[:, 9:]
+    def at(self, across: float) -> Floats:
+        """Places so far across the guide at each frame [m], shape (n, 3)."""
+        made: Floats = self.frames[:, :3] + across * self.frames[:, 6:9] + self.height * self.frames[:, 9:]
         return made
 
     def quads(self) -> Iterator[tuple[Floats, Floats]]:
@@ -228,7 +225,7 @@ class Ribbon:
 
     def lines(self, cell: float) -> Floats:
         """Grid lines along and across, shape (n, 2, 3)."""
-        along = [self.at(np.full(len(self.frames), side)) for side in self._sides(cell)]
+        along = [self.at(side) for side in self._sides(cell)]
         pieces = [np.stack((line[:-1], line[1:]), axis=1) for line in along]
         right, left = self.edges()
         rows = self._rows(cell)

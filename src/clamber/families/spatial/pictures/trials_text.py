@@ -23,7 +23,8 @@ ROWS = (
 
 def print_spatial_trials(console: Console, trials: SpatialTrials, seeds: Sequence[int]) -> None:
     """Print how often runs came to their end, causes, and the spread of what is measured of them."""
-    n, faults = len(trials.ended), trials.faults()
+    n = len(trials.ended)
+    faults = trials.faults()
     low, high = trials.interval
     style = "bold green" if trials.done == n else "bold red"
     console.print(f"{trials.done} of {n} runs of '{trials.setup.name}' came to their end", style=style)

@@ -44,6 +44,8 @@ MOST_NUMBERED: Final = 70
 
 LETTER: Final = 0.01
 """About how wide a letter of a goal's name is, over the larger side of the picture [-]."""
+Colour: TypeAlias = tuple[float, float, float]
+"""Red, green and blue in [0, 1]."""
 Name: TypeAlias = tuple[float, float, float]
 """From where to where a goal's name goes in the picture's plane, and how high [m]."""
 
@@ -51,6 +53,11 @@ Name: TypeAlias = tuple[float, float, float]
 def picture_bounds(camera: Camera, shown: Floats) -> Bounds:
     """The part of a picture's plane that holds some places, shape (n, 3), with room around them [m]."""
     return fit_bounds(camera.flat(shown), ())
+
+
+def larger_side(bounds: Bounds) -> float:
+    """Of a picture [m]."""
+    return max(bounds[1] - bounds[0], bounds[3] - bounds[2])
 
 
 def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds) -> None:
@@ -63,7 +70,8 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
         shown: Places that are to be seen, world frame [m], shape (n, 3).
         bounds: Of the picture's plane.
     """
-    _set_axes(axes, bounds)
+    set_axes(axes, bounds)
+    axes.set(xticks=[], yticks=[])
     surfaces = surfaces_of(task.world, shown)
     planes = {k for k, solid in enumerate(task.world.solids) if solid.kind == "plane"} | {-1}
     front = {id(face): float(face.normal @ camera.axes[2]) > 1e-6 for face in surfaces.faces}
@@ -82,21 +90,33 @@ def draw_world(axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bou
     _draw_scale(axes, task, camera, shown, bounds, [name for name in names if name is not None])
 
 
-def _set_axes(axes: Axes, bounds: Bounds) -> None:
-    axes.set(xlim=(bounds[0], bounds[1]), ylim=(bounds[2], bounds[3]), xticks=[], yticks=[])
+def set_axes(axes: Axes, bounds: Bounds) -> None:
+    """Limits and looks of the axes of a picture or a map."""
+    axes.set(xlim=bounds[:2], ylim=bounds[2:])
     axes.set_aspect("equal")
     axes.set_facecolor(style.PAPER)
     for spine in axes.spines.values():
         spine.set_color(style.FAINT)
 
 
-def shade(normal: Floats, camera: Camera, darkest: str = SHADES[0]) -> tuple[float, float, float]:
-    """Colour of a face by how the light falls on it, red, green and blue in [0, 1]; `darkest` where it passes by."""
+def mixed(colour: str | Colour, other: str | Colour, share: float) -> Colour:
+    """A colour with a share of another."""
+    a, b = (_rgb(one) for one in (colour, other))
+    red, green, blue = a + share * (b - a)
+    return float(red), float(green), float(blue)
+
+
+def _rgb(colour: str | Colour) -> Floats:
+    if isinstance(colour, str):
+        return np.array([int(colour[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0
+    return np.array(colour)
+
+
+def shade(normal: Floats, camera: Camera, darkest: str = SHADES[0]) -> Colour:
+    """Colour of a face by how the light falls on it; `darkest` where it passes by."""
     light = LIGHT @ camera.axes
     lit = max(0.0, float(normal @ light) / float(np.linalg.norm(light) * np.linalg.norm(normal)))
-    dark, bright = (np.array([int(name[k : k + 2], 16) for k in (1, 3, 5)]) / 255.0 for name in (darkest, SHADES[1]))
-    red, green, blue = dark + (0.3 + 0.7 * lit) * (bright - dark)
-    return float(red), float(green), float(blue)
+    return mixed(darkest, SHADES[1], 0.3 + 0.7 * lit)
 
 
 def _draw_faces(axes: Axes, faces: list[Face], camera: Camera) -> None:
@@ -156,9 +176,8 @@ def goal_strip(task: SpatialTask, goal: Goal) -> tuple[Floats, Floats] | None:
     first = along_min if math.isfinite(along_min) else min(0.0, along_max)
     last = along_max if math.isfinite(along_max) else max(length, first + 4.0 * task.step.length)
     ribbon = guide_ribbon(task.world, 0.0, (first, max(last, first + task.step.length)))
-    sides = np.clip((across_min, across_max), whole.right, whole.left)
-    right, left = (ribbon.at(np.full(len(ribbon.frames), side)) for side in sides)
-    return right, left
+    right, left = np.clip((across_min, across_max), whole.right, whole.left)
+    return ribbon.at(right), ribbon.at(left)
 
 
 def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Camera, bounds: Bounds) -> Name | None:
@@ -188,7 +207,7 @@ def _draw_goal(axes: Axes, task: SpatialTask, goal: Goal, index: int, camera: Ca
         goal_label(task, index), tuple(top), xytext=(3 if left else -3, -3 if high else 3), textcoords="offset points",
         ha="left" if left else "right", va="top" if high else "bottom", fontsize=8, color=GOAL_WORDS, zorder=9, path_effects=[halo()],
     )  # fmt: skip
-    length = LETTER * max(bounds[1] - bounds[0], bounds[3] - bounds[2]) * len(goal_label(task, index))
+    length = LETTER * larger_side(bounds) * len(goal_label(task, index))
     ends = (float(top[0]), float(top[0]) + (length if left else -length))
     return min(ends), max(ends), float(top[1])
 
@@ -215,7 +234,7 @@ def discs(places: Floats, normals: Floats, radii: Floats) -> Floats:
 
 def hold_radii(task: SpatialTask, bounds: Bounds) -> Floats:
     """Radii with which holds are drawn [m], shape (n,)."""
-    least = LEAST_HOLD * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
+    least = LEAST_HOLD * larger_side(bounds)
     return np.array([max(hold.radius, least) for hold in task.world.holds])
 
 
@@ -247,10 +266,10 @@ def _draw_scale(
     axes: Axes, task: SpatialTask, camera: Camera, shown: Floats, bounds: Bounds, names: list[Name]
 ) -> None:
     """A bar of a round length, and the world's axes as they are seen, in an empty corner away from the goals' names."""
-    width, height = bounds[1] - bounds[0], bounds[3] - bounds[2]
-    length = round_length(0.1 * max(width, height))
+    size = larger_side(bounds)
+    length = round_length(0.1 * size)
     words = f"{100.0 * length:g} cm" if length < 1.0 else f"{length:g} m"
-    room = 0.035 * max(width, height)
+    room = 0.035 * size
     x, y = bounds[1] - room - length, bounds[2] + room
     axes.plot([x, x + length], [y, y], color=style.INK, lw=1.6, solid_capstyle="butt", zorder=9)
     axes.annotate(
@@ -269,9 +288,9 @@ def _draw_scale(
             path_effects=[halo(2.0)],
         )  # fmt: skip
     fall = np.array(task.world.gravity)
-    size = float(np.linalg.norm(fall))
-    if size > 1e-9 and fall[2] > -0.999 * size:  # where things don't fall along -z, the way that they do
-        down = arm * camera.flat(fall / size)
+    gravity = float(np.linalg.norm(fall))
+    if gravity > 1e-9 and fall[2] > -0.999 * gravity:  # where things don't fall along -z, the way that they do
+        down = arm * camera.flat(fall / gravity)
         axes.annotate(
             "",
             tuple(origin + down),

@@ -17,10 +17,8 @@ from .checks import SPATIAL_CHECKS
 from .problem import MOVE_NAMES, SpatialProblem, code_limits
 from .records import AXES
 from .robot_arrays import robot_arrays
+from .step_kernels import NEAR
 from .task import SpatialTask
-
-NEAR_MOVES: Final = 2 * AXES
-"""Moves of one step along each axis, either way; those behind them are the far ones."""
 
 
 class SpatialPlans(PlanFamily):
@@ -44,7 +42,7 @@ class SpatialPlans(PlanFamily):
     def sizes(self, task: SpatialTask) -> Mapping[str, float]:
         """What each margin is a share of: half a joint's range, the largest jump, the torque limit, the weight, the limb's length."""
         chains = task.robot.chains
-        used = np.arange(chains.lower.shape[1]) < chains.n_joints[:, None]
+        used = chains.used
         weight = chains.total_mass * float(np.linalg.norm(task.world.gravity)) or chains.total_mass
         size = float(robot_arrays(task.robot).robot["size"][0])
         return {
@@ -118,8 +116,8 @@ class SpatialPlans(PlanFamily):
     def move_delta(self, task: SpatialTask, argument: int) -> tuple[float, ...]:
         """What the move of an argument changes: along, across, height [m], yaw, pitch, roll [rad]."""
         step, delta = task.step, np.zeros(AXES)
-        times = 1 if argument < NEAR_MOVES else step.far
-        axis = argument % NEAR_MOVES >> 1
+        times = 1 if argument < NEAR else step.far
+        axis = argument % NEAR >> 1
         size = (step.length, step.length, step.height, step.angle, step.tilt, step.tilt)[axis]
         delta[axis] = (1 - 2 * (argument & 1)) * times * size
         return tuple(delta.tolist())

@@ -2,7 +2,12 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+import numpy.typing as npt
+
 from ....types import Floats, Ints
+
+Bools = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,3 +63,13 @@ class Chains:
     def total_mass(self) -> float:
         """Of the whole robot [kg]."""
         return self.base_mass + float(self.mass.sum())
+
+    @property
+    def used(self) -> Bools:
+        """Where tables have a joint, in place of padding, shape (limbs, most); what they have there is joint by joint, limb after limb."""
+        return np.arange(self.lower.shape[1]) < self.n_joints[:, None]
+
+    @property
+    def longest_limb(self) -> float:
+        """Length of the longest limb when stretched, slides not run out [m]."""
+        return float(np.linalg.norm(self.offset[:, 1:], axis=2).sum(axis=1).max())

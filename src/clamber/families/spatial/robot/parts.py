@@ -3,14 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from ....types import Floats
 from .assembly import owners, placed_parts
+from .chains import Bools
 from .robot import SpatialRobot
 from .tree import Frame
-
-Bools = npt.NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -39,7 +37,8 @@ class Parts:
 
 def parts_of(robot: SpatialRobot) -> Parts:
     """The parts of a robot, as its model has them."""
-    tree, choice = robot.tree, robot.choice
+    tree = robot.tree
+    choice = robot.choice
     placed = placed_parts(tree, choice)
     owner = owners(tree, choice.limbs)
 
@@ -103,13 +102,13 @@ class Motors:
     @classmethod
     def of(cls, robot: SpatialRobot) -> "Motors":
         """Of a robot, as its files have them."""
-        limbs = robot.choice.limbs
-        joints = [joint for limb in limbs for joint in limb.joints]
+        chains = robot.chains
+        joints = [joint for limb in robot.choice.limbs for joint in limb.joints]
         return cls(
-            torque=np.array([torque for limb in limbs for torque in limb.torque]) / robot.spec.torque_share,
-            speed=np.array([speed for limb in limbs for speed in limb.speed]),
+            torque=chains.torque[chains.used] / robot.spec.torque_share,
+            speed=chains.speed[chains.used],
             rotor=np.array([joint.rotor for joint in joints]),
             friction=np.array([joint.friction for joint in joints]),
             damping=np.array([joint.damping for joint in joints]),
-            sliding=np.array([joint.sliding for joint in joints]),
+            sliding=chains.sliding[chains.used] == 1,
         )

@@ -68,7 +68,8 @@ class _Writer:
 
     def imported(self) -> ImportedRobot:
         """All of it."""
-        tree, notes = self.tree, self.model.notes
+        tree = self.tree
+        notes = self.model.notes
         names = limb_names(self.found.limbs)
         self._head()
         for chain, name in zip(self.found.limbs, names, strict=True):
@@ -96,7 +97,8 @@ class _Writer:
         self.lines.append(f"{key} = {toml_value(value)}" + (f" # {comment}" if comment else ""))
 
     def _head(self) -> None:
-        tree, base = self.tree, self.found.base
+        tree = self.tree
+        base = self.found.base
         count = len(self.found.limbs)
         self._state("schema", SCHEMA, "")
         self._state("family", FAMILY, "")

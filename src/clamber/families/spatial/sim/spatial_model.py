@@ -110,7 +110,8 @@ def _add_robot(
     deviations: Deviations,
     flaws: SpatialFlaws,
 ) -> None:
-    chains, parts = robot.chains, parts_of(robot)
+    chains = robot.chains
+    parts = parts_of(robot)
     base = spec.worldbody.add_body(name="base")
     base.add_freejoint(name="floating")
     _fill(base, parts.base, float(deviations.masses[0]), deviations.payload)
@@ -171,7 +172,8 @@ def _add_joint(
 
 def _stop(joint: Any, lower: float, upper: float) -> None:
     joint.limited, joint.range = True, (lower, upper)
-    joint.solref_limit, joint.solimp_limit = STOP_SOLREF, STOP_SOLIMP
+    joint.solref_limit = STOP_SOLREF
+    joint.solimp_limit = STOP_SOLIMP
 
 
 def _add_shapes(

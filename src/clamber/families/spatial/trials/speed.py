@@ -1,6 +1,5 @@
 """How fast stances in space are judged and laws of a whole body work, beside the field's programs on the same stances and moments."""
 
-import importlib.util
 import time
 from collections.abc import Sequence
 from functools import partial
@@ -17,8 +16,7 @@ from ..statics.checks import STANCE_CHECK
 from ..statics.judging import rules_record
 from .law_rivals import RIVALS, Rival, installed
 from .law_trials import Moment, first_steps, law_at, spatial_task, time_loop, try_law
-from .rival_stances import Stances, jet_stances, shipped_stances
-from .stance_rivals import Verdict, connect, highs, hpp, jet_leg, programme
+from .stance_rivals import Stances, Verdict, connect, highs, hpp, jet_leg, jet_stances, programme, shipped_stances
 
 RATES: Final = {"gripper-climber": ">= 60 000", "hexapod": ">= 30 000", "clamp-triped": ">= 25 000"}
 """Robot -> checks a second that the project aims at, on a core."""
@@ -117,7 +115,7 @@ def peer_rows(*, stances: int = RIVAL_STANCES, rounds: int = ROUNDS, say: Say = 
         ("jet-leg, torques and friction", "jet_leg", jet_leg, ">= 200"),
         ("hpp-centroidal-dynamics, friction alone", "hpp_centroidal_dynamics", hpp, None),
     ):
-        if importlib.util.find_spec(module) is None:
+        if not installed(module):
             rows.append(Row(f"{name} ({EXTRA})", NOTHING, "ratio", aim))
             continue
         say(f"{name} on the same stances")
@@ -137,7 +135,7 @@ def peer_rows(*, stances: int = RIVAL_STANCES, rounds: int = ROUNDS, say: Say = 
 def step_rows(*, steps: int = STEPS, say: Say = keep_quiet) -> list[Row]:
     """A body moved over its holds: OMPL's RRT-connect with our check as its validity, over that check of the lattice's one stance."""
     name = "OMPL: RRT-connect of one body move, our check as validity"
-    if importlib.util.find_spec("ompl") is None:
+    if not installed("ompl"):
         return [Row(f"{name} ({EXTRA})", NOTHING, "ms")]
     say("OMPL's RRT-connect, a body move at a time")
     made = shipped_stances("gripper-climber", 20 * steps, seed=4)

@@ -1,20 +1,42 @@
-"""What other software says of stances in space: HiGHS of our programme, jet-leg, hpp-centroidal-dynamics, and OMPL between stances."""
+"""Stances of robots in space that checks are timed on, and what other software says of them.
+
+A quadruped as jet-leg knows it, and robots that come with Clamber; HiGHS of our programme, jet-leg, hpp-centroidal-dynamics, and OMPL
+between stances.
+"""
 
 import ctypes
 import importlib.util
+import math
 import sys
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Final, TypeAlias
 
 import numpy as np
 
-from ....types import Floats
+from ....tasks.robots import read_robot
+from ....types import Floats, Records
 from ..robot.chains import Chains
-from ..statics.judging import REACHED, rules_record
-from .rival_stances import FRICTION, MASS, TORQUE, Stances
+from ..robot.contacts import Contact, Row, line
+from ..robot.kinematics import Posed, link_centres, link_frames
+from ..robot.robot import build_robot
+from ..statics.judging import REACHED, Statics, rules_record
 
+FRICTION: Final = 0.8
+MASS: Final = 85.0
+"""Of the quadruped [kg]: jet-leg's default, all of it in the trunk."""
+TORQUE: Final = 60.0
+"""Of each of its motors [N m]: about half of the stances stand."""
+HIP: Final = (0.3735, 0.207)
+"""From the centre of the trunk to a hip, ahead and aside [m]: HyQ, as jet-leg has it."""
+LENGTHS: Final = (0.08, 0.35, 0.341)
+"""From the hip's roll to its pitch, thigh, shank [m]: HyQ, as jet-leg has it."""
+SIDES: Final = ((1, 1), (1, -1), (-1, 1), (-1, -1))
+"""Ahead and aside of legs in jet-leg's order: LF, RF, LH, RH."""
+SPREAD: Final = 0.25
+"""Of random postures about the nominal one, in parts of each joint's range."""
 Verdict: TypeAlias = Callable[[int], bool]
 """Whether a stance of a batch stands, by its index."""
 LEAST_GRAVITY: Final = 0.01 * 9.80665
@@ -25,20 +47,93 @@ FRAMES: Final = 4
 """Numbers of a path between two stances: forward, aside, up, turn about the base's z."""
 
 
-def _frames(chains: Chains, limb: int, posture: Floats) -> list[tuple[Floats, Floats]]:
-    """Axes (as columns) and origin of every joint and of the tip, base frame."""
-    turn, place, made = np.eye(3), np.zeros(3), []
-    n = int(chains.n_joints[limb])
-    for k in range(n + 1):
-        place = place + turn @ chains.offset[limb, k]
-        turn = turn @ chains.rotation[limb, k]
-        if k < n and chains.sliding[limb, k]:
-            place = place + posture[k] * turn[:, 2]
-        elif k < n:
-            c, s = np.cos(posture[k]), np.sin(posture[k])
-            turn = turn @ np.array(((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
-        made.append((turn, place))
+@dataclass(frozen=True, slots=True)
+class Stances:
+    """Stances of one robot, ready to be judged."""
+
+    name: str
+    chains: Chains
+    kinds: tuple[Contact, ...]
+    statics: Statics
+    bodies: Records
+    contacts: Records
+
+    def __len__(self) -> int:
+        return len(self.bodies)
+
+
+def pyramid(friction: float) -> Contact:
+    """A point foot whose friction cone is the pyramid of four sides around it that jet-leg counts with."""
+    rows = tuple(
+        Row(coefficients=tangent, per_friction=line(n=-1.0))
+        for sign in (1.0, -1.0)
+        for tangent in (line(f1=sign), line(f2=sign))
+    )
+    return Contact(kind="foot", rows=rows, friction=friction)
+
+
+def jet_quadruped() -> Chains:
+    """HyQ as jet-leg has it: legs of a roll and two pitches without a mass, knees bent inwards."""
+    offset, rotation = np.zeros((4, 4, 3)), np.tile(np.eye(3), (4, 4, 1, 1))
+    each = np.ones((4, 3))
+    nominal = np.zeros((4, 3))
+    for leg, (ahead, aside) in enumerate(SIDES):
+        offset[leg, 0] = ahead * HIP[0], aside * HIP[1], 0.0
+        rotation[leg, 0] = np.array(((0, 0, -1), (0, -1, 0), (-1, 0, 0)))  # z against the trunk's x, x down
+        rotation[leg, 1] = np.array(((1, 0, 0), (0, 0, -1), (0, 1, 0)))  # z to the left of the trunk
+        rotation[leg, 3] = np.array(((0, 0, 1), (0, 1, 0), (-1, 0, 0)))  # z along the shank
+        nominal[leg] = 0.0, 0.75 * ahead, -1.5 * ahead
+        for k, length in enumerate(LENGTHS):
+            offset[leg, k + 1, 0] = length
+    return Chains(
+        name="hyq of jet-leg",
+        limb_names=("LF", "RF", "LH", "RH"),
+        joint_names=tuple((f"{leg}_HAA", f"{leg}_HFE", f"{leg}_KFE") for leg in ("LF", "RF", "LH", "RH")),
+        n_joints=np.full(4, 3, np.int32),
+        offset=offset,
+        rotation=rotation,
+        sliding=np.zeros((4, 3), np.int32),
+        lower=np.where(nominal < 0.0, nominal - 0.9, nominal - 0.7),
+        upper=np.where(nominal < 0.0, nominal + 0.7, nominal + 0.9),
+        torque=TORQUE * each,
+        speed=math.inf * each,
+        nominal=nominal,
+        mass=0.0 * each,
+        centre=np.zeros((4, 3, 3)),
+        radius=0.0 * each,
+        base_mass=MASS,
+        base_centre=np.zeros(3),
+        base_half=np.array((0.3, 0.1, 0.05)),
+    )
+
+
+def jet_stances(n: int, seed: int = 1) -> Stances:
+    """The quadruped level on feet at various places, each fourth stance without one of them."""
+    chains, kind = jet_quadruped(), pyramid(FRICTION)
+    made = _stances("HyQ", chains, (kind,) * 4, n, seed)
+    made.contacts["normal"] = 0.0, 0.0, 1.0
+    made.contacts["along"] = 1.0, 0.0, 0.0
+    made.contacts["bears"][np.arange(0, n, 4), np.arange(0, n, 4) // 4 % 4] = 0
     return made
+
+
+def shipped_stances(robot: str, n: int, seed: int = 1) -> Stances:
+    """A robot that comes with Clamber on holds about its nominal tips, normals leaning at random."""
+    built = build_robot(read_robot(robot))
+    return _stances(robot, built.chains, tuple(built.contacts), n, seed)
+
+
+def _stances(name: str, chains: Chains, kinds: tuple[Contact, ...], n: int, seed: int) -> Stances:
+    statics, rng = Statics(chains, kinds), np.random.default_rng(seed)
+    noise = rng.uniform(-0.5, 0.5, (n, *chains.nominal.shape)) * SPREAD * (chains.upper - chains.lower)
+    postures = np.clip(chains.nominal + noise, chains.lower + 0.02, chains.upper - 0.02)
+    places = link_frames(chains, Posed(np.zeros((n, 3)), np.tile(np.eye(3), (n, 1, 1)), postures)).tips
+    normals = rng.normal(size=places.shape) * 0.15 + (0.0, 0.0, 1.0)
+    normals /= np.linalg.norm(normals, axis=2, keepdims=True)
+    aligned = statics.robot["aligned"][0, : places.shape[1]]
+    normals[:, aligned == 1] = 0.0, 0.0, 1.0
+    contacts: Any = statics.contacts(places, normals)
+    return Stances(name, chains, kinds, statics, statics.bodies(n), contacts)
 
 
 def programme(stances: Stances, i: int, judged: np.void) -> tuple[Floats, ...]:
@@ -58,17 +153,20 @@ def programme(stances: Stances, i: int, judged: np.void) -> tuple[Floats, ...]:
     at = np.concatenate(([0], np.cumsum(wide)))
     balance, rows, bounds = np.zeros((6, at[-1] + 1)), [], []
     load = chains.base_mass * np.concatenate((gravity, np.cross(chains.base_centre, gravity)))
+    limbs, most = chains.lower.shape
+    frames = link_frames(chains, Posed(np.zeros(3), np.eye(3), judged["posture"][:limbs, :most]))
+    all_centres = link_centres(chains, frames)
     for limb, kind in enumerate(stances.kinds):
-        frames, n, columns = _frames(chains, limb, judged["posture"][limb]), int(chains.n_joints[limb]), wide[limb]
+        n, columns = int(chains.n_joints[limb]), wide[limb]
+        places, turns, centres = frames.origins[limb], frames.axes[limb], all_centres[limb, :n]
         tip = base.T @ (contacts["place"][limb] - body["place"])
-        centres = [place + turn @ chains.centre[limb, k] for k, (turn, place) in enumerate(frames[:n])]
         weights = chains.mass[limb, :n, None] * gravity
         for centre, pull in zip(centres, weights, strict=True):
             load += np.concatenate((pull, np.cross(centre, pull)))
         here = slice(at[limb], at[limb] + columns)
         if columns:
             normal, along = base.T @ contacts["normal"][limb], base.T @ contacts["along"][limb]
-            end = frames[n][0]
+            end = turns[n]
             first = along if along.any() else end[:, 0] if abs(end[:, 0] @ normal) <= 0.9 else end[:, 1]
             first = first - (first @ normal) * normal
             first /= np.linalg.norm(first)
@@ -82,8 +180,8 @@ def programme(stances: Stances, i: int, judged: np.void) -> tuple[Floats, ...]:
                 made[-1] = row.slack[0] * weight + row.slack[1]
                 rows.append(made / made[-1])
                 bounds.append(most / made[-1])
-        for k, (turn, place) in enumerate(frames[:n]):
-            axis, most = turn[:, 2], chains.torque[limb, k]
+        for k, place in enumerate(places[:n]):
+            axis, most = turns[k, :, 2], chains.torque[limb, k]
             hinge = not chains.sliding[limb, k]
             arms = [np.cross(axis, centre - place) if hinge else axis for centre in centres[k:]]
             pulled = float(sum(arm @ pull for arm, pull in zip(arms, weights[k:], strict=True)))

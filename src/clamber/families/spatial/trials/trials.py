@@ -32,8 +32,7 @@ from ..control.laws import USUAL
 from ..execution.faulty_spatial import BEGINS, failing_of
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, read_spatial_flaws
-from .drawn import drawn
-from .noise import SPATIAL_NOISE, SpatialNoise
+from .noise import SPATIAL_NOISE, SpatialNoise, drawn
 from .planning import replanner
 from .run_plan import (
     Control,

@@ -7,7 +7,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from ..robot.chains import Chains
+from .chains import Chains
 
 MOST_STEPS: Final = 40
 """Of inverse kinematics."""
@@ -98,8 +98,7 @@ def jacobians(chains: Chains, frames: LinkFrames, points: Floats) -> Floats:
     arm = points[..., None, :] - frames.origins[..., :most, :]
     slides = chains.sliding[:, :, None] == 1
     columns = np.where(slides, axis, cross(axis, arm))
-    used = np.arange(most) < chains.n_joints[:, None]
-    made: Floats = np.swapaxes(np.where(used[..., None], columns, 0.0), -1, -2)
+    made: Floats = np.swapaxes(np.where(chains.used[..., None], columns, 0.0), -1, -2)
     return made
 
 
@@ -242,5 +241,5 @@ def joint_torques(chains: Chains, frames: LinkFrames, wrenches: Floats, gravity:
         moved = jacobians(chains, frames, centres[..., k, :])
         moved = np.where(np.arange(most) <= k, moved, 0.0)
         torque -= np.einsum("...lij,li->...lj", moved, weight)
-    made: Floats = np.where(np.arange(most) < chains.n_joints[:, None], torque, 0.0)
+    made: Floats = np.where(chains.used, torque, 0.0)
     return made
