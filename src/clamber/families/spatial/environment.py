@@ -251,7 +251,8 @@ def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tup
     """
     if isinstance(plan, str):
         opened = open_plan(plan, name, list(settings))
-        task, plan = opened.task, opened.plan
+        task = opened.task
+        plan = opened.plan
     else:
         task = load_task(name, list(settings))
     if not isinstance(task, SpatialTask):

@@ -39,7 +39,8 @@ def contact_sequence(task: SpatialTask, replay: Replay) -> Json:
     A limb that takes another hold at step k leaves the old one after stance k - 1 and is on the new one in stance k; in between it
     swings over `lift` metres.
     """
-    chains, world = task.robot.chains, task.world
+    chains = task.robot.chains
+    world = task.world
     body = posed(chains, replay.stances)
     centres = centre_of_mass(chains, body, link_frames(chains, body))
     held = np.array(replay.stances["hold"][:, : len(chains.limb_names)])

@@ -267,7 +267,9 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
         """Go on by another plan, if there is one."""
         if another is None:
             return False
-        self.task, self.course, self._at = another.task, another.course, 0
+        self.task = another.task
+        self.course = another.course
+        self._at = 0
         self.report.replans.append(another.told)
         return True
 
@@ -284,7 +286,8 @@ class Carrying(Performer[Motion, CarryingReport, int, int]):
 
     def _go_on_without(self, limb: int, action: Motion) -> bool:
         """Fold a limb and go on by another plan; whether there is one."""
-        body, at = self.body, self._nearest(action)
+        body = self.body
+        at = self._nearest(action)
         for other in self._in_air():
             if other != limb and not self._take(other, int(at.holds[other]), at, at):
                 return False

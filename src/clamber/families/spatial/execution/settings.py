@@ -54,7 +54,8 @@ class Pace:
         mass = chains.total_mass
         strong = sum(float(chains.torque[limb, : chains.n_joints[limb]].max()) for limb in range(limbs))
         agile = min(GRAVITY, strong / (mass * size))
-        weight, how = mass * GRAVITY, robot.spec.handling
+        weight = mass * GRAVITY
+        how = robot.spec.handling
         return cls(
             size=size,
             weight=weight,

@@ -54,7 +54,8 @@ def draw_route(task: SpatialTask, replay: Replay, camera: Camera) -> Figure:
     draw_world(wall, task, camera, shown, bounds)
     _mark_used(wall, task, camera, moments, bounds)
     path = np.array([at.body.place for at in moments])
-    flat, last = camera.flat(path), len(moments) - 1
+    flat = camera.flat(path)
+    last = len(moments) - 1
     for k in pick_ghosts(flat, GHOSTS) if last else [0]:
         RobotArtists(wall, task, camera, bounds, 1.0 if k == last else GHOST).update(moments[k])
         if k < last:
@@ -67,7 +68,8 @@ def draw_route(task: SpatialTask, replay: Replay, camera: Camera) -> Figure:
 
 def _mark_used(wall: Axes, task: SpatialTask, camera: Camera, moments: list[Moment], bounds: Bounds) -> None:
     """Colour every hold that a limb took in the limb's colour."""
-    radii, world = hold_radii(task, bounds), task.world
+    radii = hold_radii(task, bounds)
+    world = task.world
     for limb in range(len(task.robot.chains.limb_names)):
         taken = sorted({at.holds[limb] for at in moments})
         outlines = camera.flat(discs(world.places[taken], world.normals[taken], 1.25 * radii[taken]))

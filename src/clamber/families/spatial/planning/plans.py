@@ -145,7 +145,8 @@ class SpatialPlans(PlanFamily):
 
     def lattice(self, task: SpatialTask, problem: CompiledProblem) -> PoseLattice:
         """The lattice of the body's poses on the guide."""
-        start, step = task.start, task.step
+        start = task.start
+        step = task.step
         return PoseLattice(
             axes=SPACE,
             origin=np.array((start.along, start.across, start.height, start.yaw, 0.0, 0.0)),

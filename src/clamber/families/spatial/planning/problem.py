@@ -217,10 +217,11 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
         raise SpecError(f"world '{world.name}'", "holds", [], "must be one or more: limbs stand on holds")
     holds, record = hold_records(task), np.zeros(1, PARAMS)
     row = record[0]
-    row["along"], row["across"], row["height"] = start.along, start.across, start.height
-    row["yaw"], row["pitch"], row["roll"] = start.yaw, start.pitch, start.roll
-    row["length"], row["rise"], row["angle"], row["tilt"] = step.length, step.height, step.angle, step.tilt
-    row["heights"], row["tilts"], row["far"], row["nearest"] = step.heights, step.tilts, step.far, step.nearest
+    for key in ("along", "across", "height", "yaw", "pitch", "roll"):
+        row[key] = getattr(start, key)
+    row["rise"] = step.height
+    for key in ("length", "angle", "tilt", "heights", "tilts", "far", "nearest"):
+        row[key] = getattr(step, key)
     row["turns"] = round(math.tau / step.angle)
     row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
     row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)

@@ -21,7 +21,8 @@ STRENGTHS: Final = {"friction": ("ratio", "", 100), "pull": ("force", "N", 10)}
 
 def spatial_relaxations(task: SpatialTask) -> Iterator[Relaxation]:
     """Every kind of single relaxation of a task of a robot in space."""
-    rules, robot = task.rules, task.robot.spec
+    rules = task.rules
+    robot = task.robot.spec
     if "equilibrium" in rules.hard:
         if rules.need > 0.0:
             yield key_dial("rules.need", rules.need, most=0.0, unit="", per_unit=1000, nested=True)

@@ -1,8 +1,9 @@
 """Kinds of contacts as files state them, with the numbers of a data sheet: those that come with Clamber, and those that limbs name."""
 
 import math
+from dataclasses import fields
 from pathlib import Path
-from typing import Annotated, Final, Literal
+from typing import Annotated, Any, Final, Literal
 
 from pydantic import Field
 
@@ -20,7 +21,7 @@ from ....units import (
     PositiveRatio,
     PositiveTorque,
 )
-from .contacts import Contact, Strength
+from .contacts import Contact, Form, Strength
 
 SCHEMA: Final = "clamber-contact-1"
 DATA: Final = Path(__file__).parent.parent / "data" / "contacts"
@@ -46,6 +47,15 @@ class ContactKind:
         """Exactly what it bears."""
         raise NotImplementedError
 
+    def _strength(self, form: Form, **more: Any) -> Strength:
+        """A body of some form: what has no other value in `more` is as the data sheet has it by the same name."""
+        stated = {one.name: getattr(self, one.name) for one in fields(Strength) if hasattr(self, one.name)}
+        return Strength(**(stated | more), form=form)
+
+    def _pad(self, half1: float, half2: float, ankle: bool, **more: Any) -> Strength:
+        """A body that pushes, or pulls, all over a rectangle half as long as these [m]; within an ankle it bears no moments."""
+        return self._strength("cone" if ankle else "pad", halves=(half1, half2), moments=not ankle, **more)
+
     def contact(self) -> Contact:
         """What statics takes of it: a polytope in that."""
         return self.bears().contact(self.kind)
@@ -59,7 +69,7 @@ class PointFoot(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(form="cone", friction=self.friction)
+        return self._strength("cone")
 
 
 @spec
@@ -78,13 +88,7 @@ class AreaFoot(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(
-            form="cone" if self.ankle else "pad",
-            friction=self.friction,
-            halves=(self.length / 2, self.width / 2),
-            moments=not self.ankle,
-            tilt=self.tilt,
-        )
+        return self._pad(self.length / 2, self.width / 2, self.ankle)
 
 
 @spec
@@ -103,14 +107,7 @@ class Gripper(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(
-            form="cone",
-            friction=self.friction,
-            pull=self.pull,
-            capture=self.capture,
-            centring=self.centring,
-            jaws=self.jaws,
-        )
+        return self._strength("cone")
 
 
 @spec
@@ -135,18 +132,7 @@ class Clamp(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(
-            form="cone",
-            friction=self.friction,
-            pull=self.pull,
-            press=self.press,
-            bending=self.bending,
-            twisting=self.twisting,
-            moments=True,
-            capture=self.capture,
-            centring=self.centring,
-            tilt=self.tilt,
-        )
+        return self._strength("cone", moments=True)
 
 
 @spec
@@ -167,16 +153,7 @@ class Hook(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(
-            form="hook",
-            friction=self.friction,
-            pull=self.strength,
-            angle=self.opening,
-            capture=self.capture,
-            centring=self.centring,
-            bar=True,
-            tilt=self.tilt,
-        )
+        return self._strength("hook", pull=self.strength, angle=self.opening, bar=True)
 
 
 @spec
@@ -205,7 +182,8 @@ class Magnet(ContactKind):
         """Exactly what it bears."""
         pull = self.pull / (1.0 + self.gap / self.quarter_gap) ** 2
         loss = 0.0 if self.ankle or self.half_tilt is None else 0.5 / self.half_tilt
-        return _face(self, pull, self.radius, loss)
+        side = self.radius * math.sqrt(0.5)
+        return self._pad(side, side, self.ankle, pull=pull, tilt_loss=loss)
 
 
 @spec
@@ -228,7 +206,9 @@ class Suction(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return _face(self, self.vacuum * math.pi / 4 * self.diameter**2 / self.safety, self.diameter / 2)
+        side = self.diameter / 2 * math.sqrt(0.5)
+        pull = self.vacuum * math.pi / 4 * self.diameter**2 / self.safety
+        return self._pad(side, side, self.ankle, pull=pull)
 
 
 @spec
@@ -247,14 +227,7 @@ class Spine(ContactKind):
 
     def bears(self) -> Strength:
         """Exactly what it bears."""
-        return Strength(
-            form="spine",
-            friction=self.friction,
-            pull=self.strength,
-            angle=self.angle,
-            capture=self.capture,
-            tilt=self.tilt,
-        )
+        return self._strength("spine", pull=self.strength)
 
 
 KINDS: Final[dict[str, type[ContactKind]]] = {
@@ -281,21 +254,6 @@ def build_contact(document: Document) -> ContactKind:
     if kind not in KINDS:
         raise document.problem("kind", f"must be {describe_choices(str(kind), tuple(KINDS))}")
     return build_spec(KINDS[str(kind)], document, without=("schema",))
-
-
-def _face(kind: Magnet | Suction, pull: float, radius: float, loss: float = 0.0) -> Strength:
-    """Of a round face that pulls all over the square in it."""
-    side = radius * math.sqrt(0.5)
-    return Strength(
-        form="cone" if kind.ankle else "pad",
-        friction=kind.friction,
-        pull=pull,
-        halves=(side, side),
-        moments=not kind.ankle,
-        capture=kind.capture,
-        tilt=kind.tilt,
-        tilt_loss=loss,
-    )
 
 
 def contact_names() -> tuple[str, ...]:

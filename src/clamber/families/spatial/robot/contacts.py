@@ -7,7 +7,7 @@ forces [N], then moments about the contact's point [N m]. A row says `coefficien
 
 import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypeAlias
 
 import numpy as np
 
@@ -22,6 +22,7 @@ SHUTTING = 0.4
 SLIP, GRIP, MOMENT = range(3)
 """Margins that a row counts for."""
 
+Form: TypeAlias = Literal["cone", "pad", "hook", "spine"]
 _NONE = (0.0,) * 6
 
 
@@ -77,7 +78,7 @@ class Contact:
 class Strength:
     """The exact body of wrenches that an end effector bears, which the rows of its `Contact` lie in, and when it attaches at all."""
 
-    form: Literal["cone", "pad", "hook", "spine"]
+    form: Form
     """Cone: |tangent| <= mu (normal + pull). Pad: the same, with moments that peel and twist it off. Hook and spine: as their rows say."""
     friction: float
     """Coefficient mu [-]."""

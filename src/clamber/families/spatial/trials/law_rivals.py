@@ -115,7 +115,8 @@ class PlacoBody:
 
     def tick(self) -> Floats:
         """Torques, shape (n,)."""
-        self.robot.state.q, self.robot.state.qd = self.q, self.v
+        self.robot.state.q = self.q
+        self.robot.state.qd = self.v
         self.robot.update_kinematics()
         torques: Floats = self.solver.solve().tau[FREE:]
         return torques
@@ -146,7 +147,8 @@ class TsidBody:
                 self._hold(limb)
             elif does == SWINGS:
                 self._swing(limb)
-        gains, aims = law.gains, law.aims
+        gains = law.gains
+        aims = law.aims
         base = tsid.TaskSE3Equality("base", robot, "b0")
         aim = tsid.TrajectorySE3Constant("base", pinocchio.SE3(aims.rotation, aims.position))
         self._follow(base, (gains.base_rate, gains.base), FREE, aim)

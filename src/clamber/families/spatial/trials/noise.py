@@ -175,7 +175,8 @@ def drawn(noise: SpatialNoise, task: SpatialTask, plan: Plan, seed: int) -> dict
     All holds of the plan count, those of its start, too, whether a run came to them or not: runs that end early would else draw less.
     Of friction and strength the weakest hold decides.
     """
-    robot, world = task.robot, task.world
+    robot = task.robot
+    world = task.world
     chains = robot.chains
     holds = sorted({hold for _, hold in grabs(task, plan)})
     made = noise.deviations(robot, world, seed)
