@@ -97,15 +97,6 @@ def _odd_robot(robot: SpatialRobot, units: ShownUnits) -> Iterator[str]:
         yield "no end effector has friction"
 
 
-def load_world(name_or_path: str) -> World:
-    """A world in space by its name or file.
-
-    Raises:
-        ClamberError: If there is none, or it breaks a rule of its format.
-    """
-    return build_world(read_world(name_or_path))
-
-
 def inspect_world(world: World, units: ShownUnits = SI) -> Finding:
     """Facts of a world in space, and what is odd about it."""
     size = np.ptp(world.places, axis=0) if world.holds else np.zeros(3)
@@ -200,6 +191,6 @@ def odd_task(task: SpatialTask, hard: Set[str]) -> Iterator[str]:
 
 INSPECTION: Final = Inspection(
     robot=inspect_robot,
-    kinds={"world": FileKind(WORLD_SCHEMA, world_names, load_world, inspect_world)},
+    kinds={"world": FileKind(WORLD_SCHEMA, world_names, lambda name: build_world(read_world(name)), inspect_world)},
     odd_task=odd_task,
 )

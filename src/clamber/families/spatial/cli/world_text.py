@@ -78,11 +78,10 @@ def made_data(words: "WorldOptions", kind: Kind, fit: Fit, name: str) -> Json:
     Raises:
         SpecError: If an option is none that it may be; the error names it.
     """
+    sizes = {key: length(f"--{key}", getattr(words, key)) for key in ("length", "width", "spacing")}
     wanted = Wanted(
         kind=kind,
-        length=length("--length", words.length),
-        width=length("--width", words.width),
-        spacing=length("--spacing", words.spacing),
+        **sizes,
         bumps=length("--bumps", words.bumps, least=0.0),
         gap=length("--gap", words.gap),
         angle=angle("--angle", words.angle),

@@ -110,7 +110,8 @@ def named_camera(world: World, name: str) -> Camera:
     _, across, normal = world.frames[0, 3:].reshape(3, 3)
     steep = abs(float(normal @ up)) > STEEP
     level = -across * math.copysign(1.0, float(normal @ up)) if steep else normal
-    azimuth = _azimuth(level, Camera(0.0, 0.0, up_of(world)))
+    right, _, towards = Camera(0.0, 0.0, up_of(world)).axes
+    azimuth = math.atan2(float(level @ right), float(level @ towards))
     turns: dict[str, tuple[float, float]] = {
         "front": (0.0, 10.0 * DEGREE),
         "left": (-ASIDE, 10.0 * DEGREE),
@@ -120,12 +121,6 @@ def named_camera(world: World, name: str) -> Camera:
     }
     aside, elevation = turns[name]
     return Camera(azimuth + aside, elevation, up_of(world))
-
-
-def _azimuth(direction: Floats, zero: Camera) -> float:
-    """Azimuth of a direction, given the camera of azimuth 0 [rad]."""
-    right, _, towards = zero.axes
-    return math.atan2(float(direction @ right), float(direction @ towards))
 
 
 def stretch(task: SpatialTask) -> tuple[float, float]:

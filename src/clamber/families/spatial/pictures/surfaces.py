@@ -10,7 +10,6 @@ import numpy as np
 
 from ....types import Floats
 from ..planning.surface import on_guide
-from ..world.fields import DistanceField
 from ..world.guide import GRAIN
 from ..world.patterns import frame_at
 from ..world.solids import BAR, BOX, CYLINDER, FIELD, PLANE, TUBE
@@ -81,22 +80,15 @@ def surfaces_of(world: World, shown: Floats) -> Surfaces:
                 lines.append(grid)
                 normals.append(np.tile(record["axes"][2], (len(grid), 1)))
             continue
-        made = (
-            _solid_faces(record, shown)
-            if int(record["kind"]) != FIELD
-            else terrain_faces(world.fields[k - len(world.solids)])
-        )
+        made = _solid_faces(record, shown)
+        if int(record["kind"]) == FIELD:
+            drawn = world.fields[k - len(world.solids)].drawn
+            made = zip(drawn[0][drawn[1]], face_normals(drawn)[0], strict=True)
         for corners, normal in made:
             faces.append(Face(corners, normal, k))
     return Surfaces(
         tuple(faces), np.concatenate([np.zeros((0, 2, 3)), *lines]), np.concatenate([np.zeros((0, 3)), *normals])
     )
-
-
-def terrain_faces(field: DistanceField) -> Iterator[tuple[Floats, Floats]]:
-    """Corners and normal of each triangle of a terrain as pictures have it."""
-    vertices, faces = field.drawn
-    yield from zip(vertices[faces], face_normals(field.drawn)[0], strict=True)
 
 
 def _plane(record: np.void, others: list[np.void], shown: Floats, cell: float) -> tuple[Floats, Floats]:

@@ -166,19 +166,14 @@ def _away(goal: Any, along: Any, across: Any) -> Floats:
     return made
 
 
-def _entered(box: tuple[float, float, float, float], at: tuple[float, float]) -> tuple[float, float]:
-    """Place of a goal's box that is nearest another place [m]."""
-    return min(max(at[0], box[0]), box[1]), min(max(at[1], box[2]), box[3])
-
-
 def goal_records(task: SpatialTask) -> Records:
     """Goals in order, records of `GOAL`."""
     rows = np.zeros(len(task.goals), GOAL)
     at, way = (task.start.along, task.start.across), 0.0
     for row, goal in zip(rows, task.goals, strict=True):
-        row["along_min"], row["along_max"], row["across_min"], row["across_max"] = goal.box
+        row["along_min"], row["along_max"], row["across_min"], row["across_max"] = box = goal.box
         low, high = goal.yaw_min, goal.yaw_max
-        entered = _entered(goal.box, at)
+        entered = min(max(at[0], box[0]), box[1]), min(max(at[1], box[2]), box[3])
         way += math.dist(at, entered)
         at = entered
         row["way"] = way

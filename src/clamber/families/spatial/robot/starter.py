@@ -63,7 +63,6 @@ class _Writer:
         self.path = Path(os.path.relpath(model_file.resolve(), target.resolve().parent)).as_posix()
         self.guessed: list[str] = []
         self.limbs: list[ImportedLimb] = []
-        self.data: Json = {}
         self.lines: list[str] = []
 
     def imported(self) -> ImportedRobot:
@@ -93,7 +92,6 @@ class _Writer:
         )
 
     def _state(self, key: str, value: object, comment: str) -> None:
-        self.data[key] = value
         self.lines.append(f"{key} = {toml_value(value)}" + (f" # {comment}" if comment else ""))
 
     def _head(self) -> None:
@@ -178,7 +176,6 @@ class _Writer:
             limb["radius"] = f"{1000 * THIN * chain.length:.3g} mm"
             comments["radius"] = f"{GUESS}: the model gives its links no shape that could be read"
             self.guessed.append(f"limb {name}: no shapes; a radius of {limb['radius']} was guessed")
-        self.data.setdefault("limb", []).append(limb)
         self.lines += ["", "[[limb]]"]
         self.lines += [
             f"{key} = {toml_value(value)}" + (f" # {comments[key]}" if key in comments else "")

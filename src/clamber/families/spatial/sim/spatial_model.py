@@ -77,7 +77,10 @@ def spatial_spec(robot: SpatialRobot, true: TrueWorld, flaws: SpatialFlaws) -> A
     option.noslip_iterations = 0 if all(strength.capture for strength in strengths) else NOSLIP
     option.gravity = true.world.gravity
     option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
-    _add_solids(mujoco, spec, true.world, ((1 << len(strengths)) - 1) << ON_SOLIDS)
+    tips = ((1 << len(strengths)) - 1) << ON_SOLIDS
+    for record in true.world.solid_records:  # once for links and once, a tip's radius lower, for tips
+        _add_solid(mujoco, spec, record, 0.0, LINKS)
+        _add_solid(mujoco, spec, record, TIP, tips)
     _add_robot(mujoco, spec, robot, strengths, true.deviations, flaws)
     return spec
 
@@ -238,13 +241,6 @@ def _add_patch(mujoco: Any, spec: Any, limb: str, bit: int) -> None:
     kind = mujoco.mjtGeom.mjGEOM_CYLINDER
     bits = {"contype": 0, "conaffinity": bit, "priority": 2}
     body.add_geom(name=patch_name(limb), type=kind, size=(THICK, THICK, 0.0), **bits, **_contact(0.5))
-
-
-def _add_solids(mujoco: Any, spec: Any, world: World, tips: int) -> None:
-    """Solids, once for links and once, a tip's radius lower, for tips."""
-    for record in world.solid_records:
-        _add_solid(mujoco, spec, record, 0.0, LINKS)
-        _add_solid(mujoco, spec, record, TIP, tips)
 
 
 def _add_solid(mujoco: Any, spec: Any, record: np.void, lower: float, touched: int) -> None:
