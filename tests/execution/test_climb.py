@@ -13,8 +13,8 @@ from clamber.families.climber.control.planar_limb import HANG, LIMB_TASK
 from clamber.families.climber.execution import actor, hook
 from clamber.families.climber.execution.approach import Approach
 from clamber.families.climber.execution.climber import Climber, FallenError, Grabbed
-from clamber.families.climber.execution.ends import grab, press_on, release
 from clamber.families.climber.execution.executable_plan import lay_course
+from clamber.families.climber.execution.grabbing import grab, press_on, release
 from clamber.families.climber.execution.limb_task import LimbTask
 from clamber.families.climber.execution.motions import (
     JOINT_AGILITY,

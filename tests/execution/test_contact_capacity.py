@@ -7,7 +7,7 @@ import pytest
 
 from clamber.families.climber.control.limb_chain import legs_of
 from clamber.families.climber.execution.climber import Climber
-from clamber.families.climber.execution.contact_capacity import load_capacity
+from clamber.families.climber.execution.elbows import load_capacity
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, climbable, lay_course
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask

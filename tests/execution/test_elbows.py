@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.control.limb_chain import legs_of
-from clamber.families.climber.execution.contact_capacity import load_capacity
+from clamber.families.climber.execution.elbows import load_capacity
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.trials.run_plan import climbing_task

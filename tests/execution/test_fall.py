@@ -10,7 +10,7 @@ from clamber.families.climber.control.backlash import weight_loads
 from clamber.families.climber.control.felt_force import ASTRAY, SLOW, TURNED
 from clamber.families.climber.execution.climb_trace import TracedClimber
 from clamber.families.climber.execution.climber import FallenError
-from clamber.families.climber.execution.ends import grab
+from clamber.families.climber.execution.grabbing import grab
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_model import HookShape
 from clamber.families.climber.sim.climber_plant import ClimberPlant

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from clamber.families.climber.execution.climber import Climber, FallenError
-from clamber.families.climber.execution.ends import grab, release
+from clamber.families.climber.execution.grabbing import grab, release
 from clamber.families.climber.execution.motions import move_body
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import ClimberPlant

@@ -19,7 +19,7 @@ from clamber.families.climber.execution.climber import Climber
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.hold_map import HoldMap
 from clamber.families.climber.execution.remaining_task import task_from_here
-from clamber.families.climber.trials.plan_validation import VALIDATION_NOISE
+from clamber.families.climber.trials.planning import VALIDATION_NOISE
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, run_plan
 from clamber.planning.problem.plan import Plan, load_plan
 from clamber.tasks import load_task, task_from_document

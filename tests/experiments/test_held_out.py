@@ -9,7 +9,7 @@ import pytest
 from clamber.families.climber.cli.validate import FIRST_SEED
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.plan_repair import learn
-from clamber.families.climber.trials.plan_validation import SEEDS
+from clamber.families.climber.trials.planning import SEEDS
 from clamber.families.climber.trials.trial import ClimbTrial
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task

@@ -15,7 +15,7 @@ from PIL import Image
 from clamber.errors import ClamberError, FileError
 from clamber.families.climber.pictures.artists import arrow_ends
 from clamber.families.climber.pictures.climb_view import ClimbView, Transition, describe_action, swung_foot
-from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, postures, stance_posture
+from clamber.families.climber.pictures.geometry import body_outline, joint_angles, limb_chain, stance_posture
 from clamber.families.climber.planning.problem import LimbedProblem
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.robot.robot import Limb
@@ -141,7 +141,8 @@ def test_a_limb_out_of_reach_is_drawn_stretched_and_short_of_its_tip() -> None:
 
 def test_drawn_elbows_are_those_that_the_kernel_solved(any_climb: Climb) -> None:
     task, replay = any_climb
-    for stance, posture in zip(replay.stances, postures(task.robot, task.world, replay.stances), strict=True):
+    for stance in replay.stances:
+        posture = stance_posture(task.robot, task.world, stance)
         for i in range(3):
             if stance["hold"][i] >= 0:
                 at = 1 + 5 * int(stance["branch"][i])

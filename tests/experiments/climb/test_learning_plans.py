@@ -12,8 +12,7 @@ from clamber.errors import SpecError
 from clamber.families.climber.execution.climb_report import ActionReport, ClimbReport
 from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.plan_validation import PlanValidation, grab_at_fault
-from clamber.families.climber.trials.planning import plan_to_climb
+from clamber.families.climber.trials.planning import PlanValidation, grab_at_fault, plan_to_climb
 from clamber.families.climber.trials.planning_margins import STEADY, with_margins
 from clamber.families.climber.trials.run_plan import climbing_task
 from clamber.planning.planners import find_planner

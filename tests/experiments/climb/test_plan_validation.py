@@ -8,8 +8,7 @@ import pytest
 
 from clamber.families.climber.planning.task import LimbedTask
 from clamber.families.climber.trials.noise import NO_NOISE, read_noise
-from clamber.families.climber.trials.plan_validation import SEEDS, PlanValidation, validations
-from clamber.families.climber.trials.planning import QUIET, plan_to_climb
+from clamber.families.climber.trials.planning import QUIET, SEEDS, PlanValidation, plan_to_climb, validations
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan

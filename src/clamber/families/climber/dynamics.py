@@ -23,8 +23,7 @@ from .robot.robot import LimbedRobot
 from .sim.climber_model import boxed_climber
 from .trajectories import climb_stances
 from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
-from .trials.plan_validation import validations
-from .trials.planning import no_plan, plan_to_climb, replanner
+from .trials.planning import no_plan, plan_to_climb, replanner, validations
 from .trials.plants import check_plant, is_remote
 from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
 from .trials.trial import ClimbTrial, ClimbTrials, TrialSetup, with_plan

@@ -8,13 +8,12 @@ import numpy as np
 from ....execution.run_report import Outcome
 from ....types import Floats
 from .climber import Climber, Grabbed
-from .ends import grab, press_on, release
 from .executable_plan import ExecutablePlan, swings
-from .hang import Hang
+from .grabbing import grab, press_on, release
+from .hang import Hang, release_to_hang
 from .hook import may_stay
 from .motions import clear_the_way, is_clear, move_body
-from .parking import OUT
-from .release_to_hang import release_to_hang
+from .parking import OUT, unwound
 
 ELSEWHERE: Final = ((0.0, 0.0), (0.0, 0.02), (0.0, -0.02), (0.025, 0.0), (-0.025, 0.0))
 """Where the body goes for another approach after a miss, from the plan's pose [m]."""
@@ -64,7 +63,11 @@ class Actor:
             FallenError: If the robot falls.
         """
         action = self.course.actions[first - 1]
-        if action.limb is not None and self.hanging is not None and self.hanging.i == self.limb(action.limb):
+        if (
+            action.limb is not None
+            and self.hanging is not None
+            and self.hanging.i == self.climber.robot.limb_index(action.limb)
+        ):
             return "not supported", 0, "it is the last limb that holds"
         if swings(self.course, last):
             refused = self._hang(last)
@@ -75,12 +78,12 @@ class Actor:
         if action.kind == "move":
             return self._move(last)
         if action.limb is not None:
-            slid = self._press_on(self.limb(action.limb))
+            slid = self._press_on(self.climber.robot.limb_index(action.limb))
             if slid:
                 return "missed", 1, slid
         if action.kind == "release":
             assert action.limb is not None
-            i = self.limb(action.limb)
+            i = self.climber.robot.limb_index(action.limb)
             if self.climber.body.tasks[i].hold:  # a slip may have done it
                 release(self.climber, i)
             if self.climber.body.tasks[i].hold:
@@ -103,7 +106,7 @@ class Actor:
             FallenError: If the robot falls.
         """
         course, body = self.course, self.climber.body
-        names = [limb.name for limb in self.climber.robot.limbs]
+        names = self.climber.robot.limb_names
         held = {name: task.hold for name, task in zip(names, body.tasks, strict=True)}
         sides = [int(math.copysign(task.hold > 0, body.q[i, 1])) for i, task in enumerate(body.tasks)]
         had = [k for k in range(step - 1) if course.holds(k) == held and course.elbows[k].tolist() == sides]
@@ -137,7 +140,7 @@ class Actor:
         climber, tasks = self.climber, self.climber.body.tasks
         if not climber.hangs:
             acts = self.course.actions[step - 1].limb
-            leaving = None if acts is None else self.limb(acts)
+            leaving = None if acts is None else self.climber.robot.limb_index(acts)
             stay = [i for i, task in enumerate(tasks) if task.hold and i != leaving]
             if leaving is None or len(stay) != 1:
                 return "more than one limb would have to let go"
@@ -190,7 +193,7 @@ class Actor:
         action = self.course.actions[step - 1]
         if action.limb is None or action.hold is None:
             return "missed", 0, "the plan names no hold"
-        i, tries = self.limb(action.limb), 0
+        i, tries = self.climber.robot.limb_index(action.limb), 0
         elbow = int(self.course.elbows[step, i])
         side = math.copysign(1.0, self.climber.holds[action.hold][0] - self.pose(step)[0])
         result = Grabbed(False, 0, 0.0, 0.0)
@@ -246,15 +249,10 @@ class Actor:
 
     def pose(self, step: int) -> Floats:
         """The plan's pose, by as much aside as its holds are from where they were mapped, its angle counted on from where the body is."""
-        pose, angle = self.course.pose(step), self.climber.body.aim[2]
+        pose = self.course.pose(step)
         pose[:2] += self.shift(step)
-        pose[2] = angle + math.remainder(pose[2] - angle, math.tau)
-        return pose
+        return unwound(pose, float(self.climber.body.aim[2]))
 
     def shift(self, step: int) -> Floats:
         """How far the holds of a step of the plan are believed to be from where they were mapped, shape (2,) [m]."""
         return self.climber.map.shift(number for number in self.course.holds(step).values() if number)
-
-    def limb(self, name: str) -> int:
-        """Index of a limb."""
-        return [limb.name for limb in self.climber.robot.limbs].index(name)

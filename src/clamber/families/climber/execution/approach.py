@@ -1,7 +1,7 @@
 """How a free limb comes to a hold: the posture to hold with, a place to stand off, the way there, and where the body should be."""
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Final, TypeAlias
@@ -11,7 +11,7 @@ import numpy as np
 from ....types import Floats, Records
 from ..control.swing_path import clearance, discs_in_body, find_way
 from ..robot.robot import Limb, LimbedRobot
-from .postures import Posture, postures
+from .postures import Posture, bent_postures, postures
 
 CELLS: Final = 81
 """Grid points along each joint: 2.75 deg for LIBRA."""
@@ -79,6 +79,43 @@ def discs_near(discs: Floats, pose: Floats) -> Floats:
     """Discs x, y, radius in the world that are near a body at a pose, in its frame, shape (n, 3) [m]."""
     out: Floats = np.empty_like(discs)
     return out[: discs_in_body(discs, pose, NEARBY, out)]
+
+
+def moves_for_room(pose: Floats, towards: Floats, stands: Callable[[Floats], bool]) -> Iterator[tuple[Floats, Floats]]:
+    """The moves by which a body makes room for a limb at a place [m], shape (2,), and the poses after them, as far as it stands there."""
+    side = float(np.sign(towards[0] - pose[0]))
+    for x, y in SHIFTS:
+        shift = np.array((x * side, y))
+        moved = pose + np.array((*shift, 0.0))
+        if not shift.any() or stands(moved):
+            yield shift, moved
+
+
+def places_beside(
+    limb: Limb, pose: Floats, hold: Floats, final: Posture, wished: float, slants: Sequence[int]
+) -> Iterator[tuple[Floats, float, Floats, Posture]]:
+    """From where a limb may go straight in to a hold.
+
+    Args:
+        limb: Of the robot.
+        pose: Of the body, shape (3,).
+        hold: Its place, world frame [m].
+        final: Posture on the hold: the elbow stays on its side.
+        wished: Distance from the hold that is tried first [m].
+        slants: Angles between the way in and the grab direction, in the order in which they are tried [deg].
+
+    Returns:
+        Direction of the way in, its length [m], where it begins, world frame [m], and the posture there, within the joints' limits.
+    """
+    for part in STAND_OFFS:
+        for slant in np.radians(slants):
+            c = np.cos(slant)
+            s = np.sin(slant)
+            x, y = final.grab
+            towards = np.array((c * x - s * y, s * x + c * y))
+            place = hold - part * wished * towards
+            for posture in bent_postures(limb, pose, place, float(final.angles[1])):
+                yield towards, part * wished, place, posture
 
 
 def rank(found: Iterable[Posture], elbow: int) -> list[Posture]:
@@ -155,16 +192,11 @@ class Approaches:
             wish: How it is to come there.
             stands: Whether the other limbs can hold the body at another pose.
         """
-        side = float(np.sign(hold[0] - pose[0]))
-        for bent, slants, (x, y) in product((BENT, 0.0) if wish.straight else (BENT,), SLANTS, SHIFTS):
-            shift = np.array((x * side, y))
-            moved = pose + np.array((*shift, 0.0))
-            if shift.any() and not stands(moved):
-                continue
-            found = self._stand_off(i, angles, moved, hold, discs, wish, bent, slants)
-            if found is not None:
-                grab, way, distance = found
-                return Approach(shift, way, grab, distance)
+        for bent, slants in product((BENT, 0.0) if wish.straight else (BENT,), SLANTS):
+            for shift, moved in moves_for_room(pose, hold, stands):
+                found = self._stand_off(i, angles, moved, hold, discs, wish, bent, slants)
+                if found is not None:
+                    return Approach(shift, *found)
         return None
 
     def leave(
@@ -183,22 +215,16 @@ class Approaches:
         Args:
             i: Index of the limb.
             side: Of its elbow, +1 or -1.
-            pose: Body pose, shape (3,).
             tip: Of the limb, on its hold, world frame [m].
             back: How far it draws back, world frame, shape (2,) [m].
-            discs: All holds as obstacles: x, y, radius with what the place is in doubt by, world frame, shape (n, 3) [m].
-            stands: Whether the other limbs can hold the body at another pose.
+            pose, discs, stands: As in `find`.
         """
-        inwards = float(np.sign(tip[0] - pose[0]))
-        for x, y in SHIFTS:
-            shift = np.array((x * inwards, y))
-            moved = pose + np.array((*shift, 0.0))
-            if shift.any() and not stands(moved):
-                continue
+        limb = self.robot.limbs[i]
+        for shift, moved in moves_for_room(pose, tip, stands):
             near = self.obstacles(discs_near(discs, moved))
-            if all(_bent(self.robot.limbs[i], moved, tip + part * back, side) for part in (0.0, 0.5)) and any(
-                self.room(i, one.angles, near) >= 0.0 for one in _bent(self.robot.limbs[i], moved, tip + back, side)
-            ):
+            off = bent_postures(limb, moved, tip + back, side, BENT)
+            comes_off = all(bent_postures(limb, moved, tip + part * back, side, BENT) for part in (0.0, 0.5))
+            if comes_off and any(self.room(i, one.angles, near) >= 0.0 for one in off):
                 return shift
         return None
 
@@ -206,15 +232,12 @@ class Approaches:
         """Whether a limb that draws its hook back while the body moves, both in step, keeps its elbow well bent and its joints in limits.
 
         Args:
-            i: Index of the limb.
-            side: Of its elbow, +1 or -1.
-            pose: Body pose, shape (3,).
-            tip: Of the limb, on its hold, world frame [m].
-            back: How far it draws back, world frame, shape (2,) [m].
+            i, side, pose, tip, back: As in `leave`.
             shift: Move of the body, shape (2,) [m].
         """
         limb, move = self.robot.limbs[i], np.array((*shift, 0.0))
-        return all(_bent(limb, pose + part * move, tip + part * back, side) for part in np.linspace(0.0, 1.0, 9))
+        parts = np.linspace(0.0, 1.0, 9)
+        return all(bent_postures(limb, pose + part * move, tip + part * back, side, BENT) for part in parts)
 
     def _stand_off(
         self,
@@ -231,24 +254,12 @@ class Approaches:
         obstacles = self.obstacles(discs_near(discs, pose))
         # the posture that is best on the hold; the other one would pull sideways, and the robot fall when it has to carry
         for final in rank(postures(limb, pose, hold), wish.elbow)[:1]:
-            if not _bent(limb, pose, hold - wish.near * final.grab, math.copysign(1.0, final.angles[1]), bent):
+            if not bent_postures(limb, pose, hold - wish.near * final.grab, float(final.angles[1]), bent):
                 continue
-            for part in STAND_OFFS:
-                for slant in np.radians(slants):
-                    c, s = np.cos(slant), np.sin(slant)
-                    x, y = final.grab
-                    place = hold - part * wish.stand_off * np.array((c * x - s * y, s * x + c * y))
-                    for posture in postures(limb, pose, place):
-                        if not posture.inside or posture.angles[1] * final.angles[1] < 0.0:
-                            continue
-                        if self.room(i, posture.angles, obstacles) < 0.0:
-                            continue
-                        way = self.way(i, angles, posture.angles, obstacles)
-                        if way is not None:
-                            return final.grab, way, part * wish.stand_off
+            for _, distance, _, posture in places_beside(limb, pose, hold, final, wish.stand_off, slants):
+                if self.room(i, posture.angles, obstacles) < 0.0:
+                    continue
+                way = self.way(i, angles, posture.angles, obstacles)
+                if way is not None:
+                    return way, final.grab, distance
         return None
-
-
-def _bent(limb: Limb, pose: Floats, place: Floats, side: float, bent: float = BENT) -> list[Posture]:
-    """The posture with the tip at a place and the elbow well on a side, within the joints' limits; none where there is none."""
-    return [one for one in postures(limb, pose, place) if one.inside and side * one.angles[1] > bent]

@@ -121,7 +121,7 @@ def usual_alpha(limit: str) -> float:
 
 def inertia_over_usual(robot: LimbedRobot) -> float:
     """Of the heaviest rotor [-]: what gains that make joints' accelerations of errors are multiplied by."""
-    return max(joint.inertia for joint in robot.joints) / USUAL_INERTIA
+    return float(robot.inertias.max()) / USUAL_INERTIA
 
 
 def records_of(gains: BodyGains, robot: LimbedRobot) -> Records:

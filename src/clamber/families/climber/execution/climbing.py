@@ -111,9 +111,8 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         step = action[0]
         self._actor.hanging = None
         acts = self.course.actions[step - 1].limb
-        held = {
-            self._actor.limb(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts
-        }
+        index = self.climber.robot.limb_index
+        held = {index(name): hold for name, hold in self.course.holds(step - 1).items() if hold and name != acts}
         elbows = {i: int(self.course.elbows[step - 1, i]) for i in held}
         why = recover(self.climber, fall, held, self._actor.pose(step - 1), elbows)
         return "" if not why or self._actor.catch_up(step) else why
@@ -122,7 +121,7 @@ class Climbing(Performer[Group, ClimbReport, int, int, str, float]):
         """See `Performer`."""
         climber, (first, last) = self.climber, action
         planned = self.course.actions[first - 1]
-        limb = None if planned.limb is None else self._actor.limb(planned.limb)
+        limb = None if planned.limb is None else climber.robot.limb_index(planned.limb)
         body_error = tip_error = None
         if climber.truth is not None:
             true = climber.truth()

@@ -1,5 +1,6 @@
-"""The side of every elbow for a plan that is to be carried out: one that serves until the limb leaves, and hooks that can bear it."""
+"""The side of every elbow for a plan that is to be carried out, and how well two limbs bear the body with their elbows on given sides."""
 
+import math
 from collections.abc import Callable
 from itertools import product
 from typing import Final
@@ -7,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats, Ints, Records
+from ..control.backlash import weight_moment
 from ..control.hook_forces import MOST_CUTS, NOTHING, pair_forces
 from ..control.limb_chain import legs_of
 from ..control.swing_path import clearance
@@ -16,7 +18,7 @@ from ..statics.interference import hook_gap
 from ..world.board import Board
 from .approach import discs_near, discs_of, wall_of
 from .body_gains import USUAL_WEIGHT
-from .postures import Posture, postures
+from .postures import Posture, bent_postures, postures
 
 CHANGE: Final = 0.4
 """What a change of side counts, where 1 is a hook that pulls sideways instead of down [-]."""
@@ -138,3 +140,33 @@ def _crowding(
                 room = min(room, float(beside) - radius)
         out.append(BLOCKED * min(max(1.0 - room / CLEAR, 0.0), 1.0))
     return out
+
+
+def load_capacity(robot: LimbedRobot, legs: Records, places: Floats, stance: Records, sides: Ints) -> float:
+    """How well the worst hook or motor of two carrying limbs is off under the weight [N]: negative if none of the splits meets all wishes.
+
+    Args:
+        robot: The climber at `USUAL_WEIGHT`.
+        legs: Its `legs_of`.
+        places: Of the board's holds, world frame, shape (n_holds, 2) [m].
+        stance: One of a plan.
+        sides: Of the elbows, +1 or -1, shape (limbs,); those of other limbs don't count.
+
+    Returns:
+        -inf where a limb has no such posture; 0 where not two limbs carry.
+    """
+    carriers = [i for i in range(len(robot.limbs)) if int(stance["carriers"]) >> i & 1]
+    if len(carriers) != 2:
+        return 0.0
+    pose = np.array((stance["x"], stance["y"], stance["angle"]))
+    q, arms = np.zeros((len(robot.limbs), 2)), np.zeros((len(robot.limbs), 2))
+    for i in carriers:
+        place = places[stance["hold"][i]]
+        found = bent_postures(robot.limbs[i], pose, place, float(sides[i]))
+        if not found:
+            return -math.inf
+        q[i], arms[i] = found[0].angles, place - pose[:2]
+    wrenches = (0.0, robot.weight, weight_moment(legs, q, pose[2])), NOTHING
+    cuts, forces = np.zeros((MOST_CUTS, 2)), np.zeros_like(arms)
+    margin, _ = pair_forces((legs, q, pose, arms), (carriers[0], carriers[1]), wrenches, cuts, forces)
+    return float(margin)

@@ -16,8 +16,7 @@ from ....types import Floats, Ints, Records
 from ..planning.task import LimbedTask
 from ..statics.elbows import open_branches
 from .body_gains import USUAL_WEIGHT
-from .contact_capacity import load_capacity
-from .elbows import choose_elbows
+from .elbows import choose_elbows, load_capacity
 
 PARTS: Final = ("robot", "board")
 """Of a task, what a plan is bound to."""

@@ -1,10 +1,11 @@
-"""The outline of a grab, whatever a limb ends in: off the old hold, near the new one, closed there in one place after another."""
+"""Grab and release with whatever a limb ends in: off the old hold, near the new one, closed there in one place after another."""
 
 import math
 from collections.abc import Iterable, Sequence
 from typing import Final, Protocol
 
 from ....types import Floats
+from . import grip, hook
 from .approach import Approach
 from .climber import Climber, Grabbed
 from .motions import follow
@@ -52,21 +53,37 @@ class End(Protocol):
         """Come off where it did not."""
 
 
-def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
-    """Bring a limb to a hold and hold on; try again beside where it misses (Bevly 1997, Fig. 4.14).
+ENDS: Final[dict[str, End]] = {"hook": hook, "foot": hook, "gripper": grip}
+"""Kind of end effector -> how it takes holds and leaves them."""
+
+
+def _end_of(climber: Climber, i: int) -> End:
+    return ENDS[climber.robot.limbs[i].end.kind]
+
+
+def release(climber: Climber, i: int) -> None:
+    """Take limb `i` off its hold; the others carry.
+
+    Raises:
+        FallenError: If the robot falls.
+    """
+    _end_of(climber, i).release(climber, i)
+
+
+def grab(climber: Climber, i: int, number: int, *, elbow: int = 0, home: Floats | None = None) -> Grabbed:
+    """Bring limb `i` to a hold and hold on; try again beside where it misses (Bevly 1997, Fig. 4.14).
 
     Args:
         climber: The robot.
         i: Index of the limb.
         number: Of the hold.
-        end: What the limb ends in.
         elbow: Side of the elbow to hold with: +1, -1, or 0 for the end most on top.
         home: Pose to which the body goes where there is no way from where it is, before it makes room; None: it is there.
 
     Raises:
         FallenError: If the robot falls.
     """
-    body, task = climber.body, climber.body.tasks[i]
+    body, task, end = climber.body, climber.body.tasks[i], _end_of(climber, i)
     if task.hold:
         end.release(climber, i)
     else:
@@ -101,13 +118,8 @@ def grab(climber: Climber, i: int, number: int, end: End, *, elbow: int = 0, hom
     return Grabbed(False, len(ends), along, across)
 
 
-def press_on(climber: Climber, i: int, end: End) -> bool:
-    """Bring a limb that has slid on its hold, but not off it, home from where it is; whether it holds. It clings as before where not.
-
-    Args:
-        climber: The robot; others hold it.
-        i: Index of the limb.
-        end: What the limb ends in.
+def press_on(climber: Climber, i: int) -> bool:
+    """Bring limb `i`, which has slid on its hold, but not off it, home from where it is; whether it holds. It clings as before where not.
 
     Raises:
         FallenError: If the robot falls.
@@ -115,7 +127,7 @@ def press_on(climber: Climber, i: int, end: End) -> bool:
     body, task = climber.body, climber.body.tasks[i]
     number = task.hold
     task.hold, task.side = 0, int(math.copysign(1, body.q[i, 1]))
-    held = end.press_on(climber, i, climber.holds[number].copy(), climber.doubt(number, i))
+    held = _end_of(climber, i).press_on(climber, i, climber.holds[number].copy(), climber.doubt(number, i))
     if held:
         _take(climber, i, number)
     else:

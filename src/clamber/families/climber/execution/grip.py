@@ -6,13 +6,13 @@ from typing import Final
 import numpy as np
 
 from ....types import Floats
-from .approach import LEAST_CLEARANCE, SHIFTS, STAND_OFFS, Approach, discs_near, free_distance
+from .approach import LEAST_CLEARANCE, Approach, Obstacles, discs_near, free_distance, moves_for_room, places_beside
 from .climber import Climber
 from .motions import move_body, move_tip
 from .postures import Posture, postures
 
-SLANTS: Final = tuple(np.radians((0, 15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90, -90)))
-"""Angles between the way in and the grab direction, in the order in which they are tried [rad]."""
+SLANTS: Final = (0, 15, -15, 30, -30, 45, -45, 60, -60, 75, -75, 90, -90)
+"""Angles between the way in and the grab direction, in the order in which they are tried [deg]."""
 
 
 def way_in(climber: Climber, i: int, hold: Floats, elbow: int, doubt: float) -> Approach | None:
@@ -28,16 +28,12 @@ def way_in(climber: Climber, i: int, hold: Floats, elbow: int, doubt: float) -> 
     Returns:
         The way; `grab` is the direction of the straight way in.
     """
-    for part in SHIFTS:
-        side = float(np.sign(hold[0] - climber.body.settled[0]))
-        shift = np.array((part[0] * side, part[1]))
-        pose = climber.body.settled + np.array((*shift, 0.0))
+    for shift, pose in moves_for_room(climber.body.settled, hold, lambda pose: True):
         for final in postures(climber.robot.limbs[i], pose, hold):
             if final.inside and elbow * final.angles[1] >= 0.0:
                 found = _from_beside(climber, i, pose, hold, final, doubt)
                 if found is not None:
-                    way, towards, distance = found
-                    return Approach(shift, way, towards, distance)
+                    return Approach(shift, *found)
     return None
 
 
@@ -46,8 +42,11 @@ def way_out(climber: Climber, i: int, doubt: float) -> Floats:
     body = climber.body
     tip, best, most = body.tip(i), body.tip(i), -np.inf
     final = Posture(body.q[i] - body.play[i], body.grab_direction(i), inside=True)
-    for _, place, posture in _beside(climber, i, body.settled, tip, final, doubt):
-        room = _room(climber, i, body.settled, posture)
+    pose = body.settled
+    wished = free_distance(climber.peg_radius, doubt)
+    obstacles = _obstacles(climber, pose)
+    for _, _, place, posture in places_beside(climber.robot.limbs[i], pose, tip, final, wished, SLANTS):
+        room = climber.approaches.room(i, posture.angles, obstacles)
         if room > most:
             best, most = place, room
         if room >= LEAST_CLEARANCE:
@@ -59,9 +58,10 @@ def _from_beside(
     climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture, doubt: float
 ) -> tuple[Floats, Floats, float] | None:
     body, ways = climber.body, climber.approaches
-    obstacles = ways.obstacles(discs_near(climber.discs(), pose))
-    for towards, place, posture in _beside(climber, i, pose, hold, final, doubt):
-        if _room(climber, i, pose, posture) < LEAST_CLEARANCE / 2:
+    wished = free_distance(climber.peg_radius, doubt)
+    obstacles = _obstacles(climber, pose)
+    for towards, _, place, posture in places_beside(climber.robot.limbs[i], pose, hold, final, wished, SLANTS):
+        if ways.room(i, posture.angles, obstacles) < LEAST_CLEARANCE / 2:
             continue
         way = ways.way(i, body.q[i] - body.play[i], posture.angles, obstacles)
         if way is not None:
@@ -69,24 +69,8 @@ def _from_beside(
     return None
 
 
-def _beside(
-    climber: Climber, i: int, pose: Floats, hold: Floats, final: Posture, doubt: float
-) -> Iterator[tuple[Floats, Floats, Posture]]:
-    """Directions of ways in to a hold, the places off it where they begin, and the postures there, elbow on the side of the last."""
-    wished = free_distance(climber.peg_radius, doubt)
-    for part in STAND_OFFS:
-        for slant in SLANTS:
-            c, s = np.cos(slant), np.sin(slant)
-            towards = np.array((c * final.grab[0] - s * final.grab[1], s * final.grab[0] + c * final.grab[1]))
-            place = hold - part * wished * towards
-            for posture in postures(climber.robot.limbs[i], pose, place):
-                if posture.inside and posture.angles[1] * final.angles[1] > 0.0:
-                    yield towards, place, posture
-
-
-def _room(climber: Climber, i: int, pose: Floats, posture: Posture) -> float:
-    ways = climber.approaches
-    return ways.room(i, posture.angles, ways.obstacles(discs_near(climber.discs(), pose)))
+def _obstacles(climber: Climber, pose: Floats) -> Obstacles:
+    return climber.approaches.obstacles(discs_near(climber.discs(), pose))
 
 
 AROUND: Final = ((0.0, 0.0), (0.8, 0.0), (-0.8, 0.0), (0.0, 0.8), (0.0, -0.8), (0.8, 0.8), (-0.8, -0.8))

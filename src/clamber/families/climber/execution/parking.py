@@ -1,5 +1,6 @@
 """Where a free limb waits while the body moves: clear of every hold along the body's way, as near as can be to where it is."""
 
+import math
 from collections.abc import Sequence
 from itertools import product
 from typing import Final
@@ -27,6 +28,11 @@ def poses_between(start: Floats, end: Floats) -> list[Floats]:
     change = end - start
     length = float(np.hypot(change[0], change[1])) + 0.2 * abs(float(change[2]))
     return [start + u * change for u in np.linspace(0.0, 1.0, 2 + int(length / LOOKS))]
+
+
+def unwound(pose: Floats, angle: float) -> Floats:
+    """A pose, its angle counted on from another [rad]."""
+    return np.array((pose[0], pose[1], angle + math.remainder(pose[2] - angle, math.tau)))
 
 
 def room_along(approaches: Approaches, i: int, angles: Floats, poses: Sequence[Floats], discs: Floats) -> float:

@@ -108,8 +108,7 @@ class Pendulum:
             slopes /= DIFFERENCE
             lack = np.array((depth - here[0], math.remainder(angle - here[1], math.tau) * ARM))
             moved[self.limb] += slopes.T @ np.linalg.solve(slopes @ slopes.T + SOFT**2 * np.eye(2), lack)
-        angles: Floats = moved[self.limb].copy()
-        return angles
+        return np.array(moved[self.limb])
 
     def _depth_and_rest(self, q: Floats) -> tuple[float, float]:
         theta = self.rest(q)

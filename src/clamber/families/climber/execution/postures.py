@@ -49,3 +49,9 @@ def postures(limb: Limb, pose: Floats, place: Floats) -> list[Posture]:
         grab = turn + (shoulder + elbow) + limb.end.angle
         out.append(Posture(np.array((shoulder, elbow)), np.array((math.cos(grab), math.sin(grab))), inside))
     return out
+
+
+def bent_postures(limb: Limb, pose: Floats, place: Floats, side: float, bend: float = 0.0) -> list[Posture]:
+    """Those of `postures` within the joints' limits whose elbow is bent to the side of `side`, its sign, by more than `bend` [rad]."""
+    found = postures(limb, pose, place)
+    return [one for one in found if one.inside and side * one.angles[1] > 0.0 and abs(one.angles[1]) > bend]

@@ -8,10 +8,10 @@ import numpy as np
 
 from ....types import Floats
 from .climber import Climber, FallenError, SlippedError
-from .ends import grab, release
+from .grabbing import grab, release
 from .hang import Hang
 from .motions import clear_the_way, move_body
-from .parking import OUT
+from .parking import OUT, unwound
 from .postures import postures
 
 ONWARDS: Final = ("stance", "unloaded_contact", "hang")
@@ -243,14 +243,14 @@ def _restore(
                 grab(climber, i, wanted[i], elbow=elbows.get(i, 0))
         missing = [i for i in wanted if tasks[i].hold != wanted[i]]
         if missing and moves == 0:
-            move_body(climber, _unwound(climber, pose))
+            move_body(climber, unwound(pose, float(climber.body.aim[2])))
     if missing:
         names = ", ".join(f"'{climber.robot.limbs[i].name}' to hold {wanted[i]}" for i in missing)
         return f"a hook has come off and does not come back: {names}"
     for i, task in enumerate(tasks):
         if task.hold and i not in wanted:
             release(climber, i)
-    move_body(climber, _unwound(climber, pose))
+    move_body(climber, unwound(pose, float(climber.body.aim[2])))
     return ""
 
 
@@ -332,9 +332,3 @@ def way_to_grab(hang: Hang, i: int, number: int, elbow: int) -> tuple[Floats, Fl
         if all(hangs_at(one)[1] >= least - 1e-9 for one in between):
             return angles, pose
     return None
-
-
-def _unwound(climber: Climber, pose: Floats) -> Floats:
-    """A pose, its angle counted on from where the body is."""
-    angle = climber.body.aim[2]
-    return np.array((pose[0], pose[1], angle + math.remainder(pose[2] - angle, math.tau)))

@@ -9,13 +9,13 @@ from ....types import Floats
 from ..control.limb_chain import legs_of
 from .approach import Approach, Approaches, Wish, discs_of
 from .body_gains import USUAL_WEIGHT
-from .contact_capacity import load_capacity
+from .elbows import load_capacity
 from .executable_plan import ExecutablePlan
 from .hook import NEAR
 from .hook_release import AWAY, stand_off
 from .motions import WEAKER
 from .parking import park, poses_between
-from .postures import postures
+from .postures import bent_postures, postures
 
 BACK: Final = (1.0, 0.5, 0.0)
 """Parts of its way back off a hold that a limb may reach, the most first [-]."""
@@ -37,10 +37,8 @@ def grabs_without_way(course: ExecutablePlan, error: float) -> list[int]:
         course: A plan, carried out on paper.
         error: How far the map may be off, each way along each axis [m].
     """
-    robot, holds = (
-        course.task.robot.at_weight(USUAL_WEIGHT),
-        {hold.number: np.array((hold.x, hold.y)) for hold in course.task.world.holds},
-    )
+    robot = course.task.robot.at_weight(USUAL_WEIGHT)
+    holds = course.task.world.places()
     radius = max(hold.radius for hold in course.task.world.holds)
     ways = Approaches(robot, legs_of(robot))
     discs = discs_of(holds.values(), radius + error)
@@ -81,9 +79,9 @@ def _drawn_back(course: ExecutablePlan, i: int, step: int, hold: Floats, radius:
         return None
     away = stand_off(limb, radius, 0.0) + AWAY
     for part in BACK:
-        for one in postures(limb, pose, hold - part * away * on[0].grab):
-            if one.inside and side * one.angles[1] > 0.0:
-                return one.angles
+        off = bent_postures(limb, pose, hold - part * away * on[0].grab, side)
+        if off:
+            return off[0].angles
     return None
 
 
@@ -91,7 +89,7 @@ def _way(
     ways: Approaches, course: ExecutablePlan, i: int, step: int, start: Floats, holds: dict[int, Floats], error: float
 ) -> Approach | None:
     """A way to the hold that a limb takes in an action, as it is looked for when the limb is there."""
-    task, names = course.task, [limb.name for limb in course.task.robot.limbs]
+    task, names = course.task, course.task.robot.limb_names
     places, stance = task.world.positions(), course.stances[step - 1].copy()
     held = course.holds(step - 1)
     stance["carriers"] = sum(1 << j for j, name in enumerate(names) if j != i and held[name])

@@ -47,7 +47,7 @@ def wiring_of(robot: LimbedRobot, counts: int | None = None) -> Wiring:
 
 def guard_of(robot: LimbedRobot, wiring: Wiring, period: float) -> PostureGuard:
     """The guard of a whole climber."""
-    return PostureGuard(wiring, np.array([joint.inertia for joint in robot.joints]), period)
+    return PostureGuard(wiring, robot.inertias, period)
 
 
 def envelope_of(robot: LimbedRobot, wiring: Wiring, period: float) -> Envelope:

@@ -15,7 +15,7 @@ from ....viewing.scene import fit_bounds, halo, set_axes
 from ..planning.task import LimbedTask, Rules, Start, Step
 from ..robot.robot import Limb, LimbedRobot, build_limbed
 from ..world.board import Board
-from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds
+from .artists import ClimberArtists, draw_scene, find_bounds, unloaded
 from .geometry import Posture, joint_margin, limb_chain, pose
 
 SHARES: Final = (0.8, 0.7, 0.9, 0.6, 0.95, 0.5)
@@ -44,15 +44,14 @@ def climber_alone(robot: LimbedRobot, document: Json) -> Alone:
     tips, sides = zip(*map(_spread, robot.limbs), strict=True)
     free = (-1,) * len(robot.limbs)
     posture = pose(robot, 0j, 0.0, list(tips), list(sides), free)
-    unloaded = np.zeros((len(robot.limbs), 2))
     bounds = fit_bounds(np.vstack((posture.outline, posture.chains.reshape(-1, 2))), ())
 
     def draw(axes: Axes) -> None:
         set_axes(axes, task, bounds)
-        ClimberArtists(axes, task, bounds, arrows=False).update(Snapshot(posture, unloaded, unloaded))
+        ClimberArtists(axes, task, bounds, arrows=False).update(unloaded(posture))
         _name_limbs(axes, robot, posture)
 
-    return Alone(task, bounds, draw, Snapshot(posture, unloaded, unloaded))
+    return Alone(task, bounds, draw, unloaded(posture))
 
 
 def _spread(limb: Limb) -> tuple[complex, float]:

@@ -34,7 +34,7 @@ from .geometry import Posture, capsule, end_effector
 CROWDED: Final = 0.16
 """Holds are drawn no larger than this share of their spacing [-]."""
 NUMBER_WIDTH: Final = 0.045
-"""Width of a hold's number, as a share of the picture [-]."""
+"""Width of a hold's number, as a share of the picture [-]: with less room none could be told apart, and none is drawn."""
 
 
 def find_bounds(task: LimbedTask, postures: list[Posture], arrows: Floats | None = None) -> Bounds:
@@ -59,11 +59,6 @@ def spacing(task: LimbedTask) -> float:
         return math.inf
     width, height = np.maximum(points.max(axis=0) - points.min(axis=0), 1e-3)
     return math.sqrt(width * height / len(points))
-
-
-def has_room_for_numbers(task: LimbedTask, bounds: Bounds) -> bool:
-    """Whether the holds' numbers can be told apart in a picture."""
-    return spacing(task) > NUMBER_WIDTH * max(bounds[1] - bounds[0], bounds[3] - bounds[2])
 
 
 def goal_outline(goal: Goal, bounds: Bounds) -> Floats | None:
@@ -97,7 +92,7 @@ def draw_scene(axes: Axes, task: LimbedTask, bounds: Bounds, *, font: float = 7.
     # One collection of all: ten thousand patches of their own take a quarter of a minute to draw.
     axes.add_collection(PatchCollection(cones, facecolor=style.HOLD, edgecolor="none", alpha=0.25, zorder=1.9))
     axes.add_collection(PatchCollection(discs, facecolor=style.HOLD, edgecolor="none", zorder=2))
-    if has_room_for_numbers(task, bounds):
+    if spacing(task) > NUMBER_WIDTH * max(bounds[1] - bounds[0], bounds[3] - bounds[2]):
         _number_holds(axes, task, font - (1.5 if len(task.world.holds) > 80 else 0.0))
 
 
@@ -152,6 +147,12 @@ class Snapshot:
     """Force of each limb's hold on it, world frame [N], shape (n_limbs, 2)."""
     torques: Floats
     """Torques of shoulders and elbows [N m], shape (n_limbs, 2)."""
+
+
+def unloaded(posture: Posture) -> Snapshot:
+    """A posture without loads."""
+    nothing = np.zeros((len(posture.held), 2))
+    return Snapshot(posture, nothing, nothing)
 
 
 def force_scale(task: LimbedTask) -> float:

@@ -19,7 +19,8 @@ from ..execution.climb_trace import ClimbTrace
 from ..execution.whole_body import WholeBody
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
-from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges
+from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, unloaded
+from .climb_view import describe_holds
 from .geometry import Posture, chained_pose
 
 PART_SECONDS: Final = 2.8
@@ -64,7 +65,8 @@ class ClimbFilm(View[Moment]):
         self, task: LimbedTask, trace: ClimbTrace, actions: list[ActionReport], pegs: Floats | None = None
     ) -> None:
         self.task, self.trace, self.actions, self._pegs = task, trace, actions, pegs
-        self._poses = trace.believed if trace.true_pose is None else trace.true_pose
+        self.poses = trace.believed if trace.true_pose is None else trace.true_pose
+        """Of the body, truly where that is told, shape (rows, 3)."""
         self._angles = trace.angles if trace.true_angles is None else trace.true_angles
         self._index = {hold.number: k for k, hold in enumerate(task.world.holds)}
         some = np.unique(np.linspace(0, len(trace.time) - 1, SHOWN).astype(int))
@@ -92,7 +94,7 @@ class ClimbFilm(View[Moment]):
 
     def posture(self, k: int) -> Posture:
         """The posture of a sample."""
-        x, y, angle = (float(part) for part in self._poses[k])
+        x, y, angle = (float(part) for part in self.poses[k])
         origin = complex(x, y)
         limbs = zip(self.task.robot.limbs, self._angles[k], strict=True)
         chains = origin + cmath.exp(1j * angle) * np.array([limb.chain(joints) for limb, joints in limbs])
@@ -118,16 +120,14 @@ class ClimbFilm(View[Moment]):
             trace.torques[first : max(last, first + 1)].mean(axis=0) if first < len(trace.time) else trace.torques[k]
         )
         body, still, forces = self._body, np.zeros((self._body.n, 2)), np.zeros((self._body.n, 2))
-        body.pose[2] = (trace.believed if trace.true_pose is None else trace.true_pose)[k, 2]
+        body.pose[2] = self.poses[k, 2]
         body.q[:], body.torques[:] = trace.angles[k], torques
         feel_forces(body.work, still, still.copy(), forces, body.period, 1.0)
         return -forces
 
     def settled(self, step: int) -> Moment:
         """When the report's action of that number ended; 0 is the start."""
-        if step == 0:
-            return self.at_time(0.0)
-        return self.at_time(self.actions[step - 1].start + self.actions[step - 1].seconds)
+        return self.at_time(float(self.ends[step]))
 
     def motion(self, step: int) -> list[Part[Moment]]:
         """The action in parts of equal time."""
@@ -145,10 +145,9 @@ class ClimbFilm(View[Moment]):
 
     def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """Time, pose and holds."""
-        posture, names = at.posture, self.task.robot.limb_names
-        numbers = [self.task.world.holds[k].number if k >= 0 else "free" for k in posture.held]
+        posture = at.posture
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)
-        return f"{at.time:.0f} s", pose, ", ".join(f"{a} {b}" for a, b in zip(names, numbers, strict=True))
+        return f"{at.time:.0f} s", pose, describe_holds(self.task, posture.held)
 
     def verdict(self, step: int) -> str:
         """What became of an action, and why; which steps of the plan it was."""
@@ -223,14 +222,12 @@ class ClimbPicture(Picture[Moment]):
         """The way of the body with ghosts along it, and how it ended."""
         view = self.view
         trace, last = view.trace, len(view.actions)
-        poses = trace.believed if trace.true_pose is None else trace.true_pose
+        poses = view.poses
         self.show(last, view.at_time(float(trace.time[-1])))
-        ends = np.searchsorted(trace.time, [0.0, *(one.start + one.seconds for one in view.actions)])
-        ends = np.minimum(ends, len(trace.time) - 1)
-        unloaded = np.zeros((len(trace.limbs), 2))
+        ends = np.minimum(np.searchsorted(trace.time, view.ends), len(trace.time) - 1)
         for k in pick_ghosts(poses[ends, :2])[:-1]:
             ghost = ClimberArtists(self.wall, view.task, view.bounds, alpha=0.25, arrows=False)
-            ghost.update(Snapshot(view.posture(int(ends[k])), unloaded, unloaded))
+            ghost.update(unloaded(view.posture(int(ends[k]))))
             x, y = poses[ends[k], :2].tolist()
             label_ghost(self.wall, k, x, y, "action")
         draw_way(self.wall, poses[:, :2])

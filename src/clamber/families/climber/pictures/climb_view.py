@@ -2,7 +2,7 @@
 
 import cmath
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Final
 
@@ -20,7 +20,7 @@ from ..planning.task import LimbedTask
 from ..robot.robot import Limb, LimbedRobot
 from ..world.board import Board
 from .artists import ClimberArtists, Snapshot, arrow_ends, draw_force_key, draw_scene, find_bounds, torque_gauges
-from .geometry import Posture, pose, postures, stance_posture, stance_sides, stance_tips
+from .geometry import Posture, pose, stance_posture, stance_sides, stance_tips
 
 LIFT: Final = 0.12
 """By what share of its length a reaching limb draws its tip in, half-way [-]."""
@@ -86,10 +86,10 @@ class Transition:
         if not made:
             kind = "release" if self.old != self.new else "still"
             made = [Phase(kind, lambda share: self._ends(share, 0, 1) or self._last())]
-        return [Phase(phase.kind, self._exact(phase.at, k, len(made))) for k, phase in enumerate(made)]
+        return [self._exact(phase, k, len(made)) for k, phase in enumerate(made)]
 
-    def _exact(self, at: Callable[[float], Posture], k: int, n: int) -> Callable[[float], Posture]:
-        return lambda share: self._ends(share, k, n) or at(share)
+    def _exact(self, phase: Phase, k: int, n: int) -> Phase:
+        return Phase(phase.kind, lambda share: self._ends(share, k, n) or phase.at(share))
 
     def _ends(self, share: float, k: int, n: int) -> Posture | None:
         if share >= 1.0 and k == n - 1:
@@ -188,13 +188,10 @@ def swung_foot(limb: Limb, start: complex, end: complex, share: float) -> comple
     return port + ahead * cmath.rect(length, direction)
 
 
-def describe_holds(task: LimbedTask, stance: np.void) -> str:
-    """Which limb is on which hold."""
-    words = []
-    for i, name in enumerate(task.robot.limb_names):
-        h = int(stance["hold"][i])
-        words.append(f"{name} {task.world.holds[h].number if h >= 0 else 'free'}")
-    return ", ".join(words)
+def describe_holds(task: LimbedTask, held: Iterable[int]) -> str:
+    """Which limb is on which hold, by the holds' indices; -1: none."""
+    limbs = zip(task.robot.limb_names, held, strict=False)
+    return ", ".join(f"{name} {task.world.holds[h].number if h >= 0 else 'free'}" for name, h in limbs)
 
 
 def describe_action(task: LimbedTask, before: np.void, after: np.void, reason: int) -> str:
@@ -244,7 +241,7 @@ class ClimbView(PlanView[Snapshot]):
     rows = ("Pose", "Holds")
 
     def __init__(self, task: LimbedTask, replay: Replay) -> None:
-        self.postures: list[Posture] = postures(task.robot, task.world, replay.stances)
+        self.postures = [stance_posture(task.robot, task.world, stance) for stance in replay.stances]
         self.settles = [
             settle(task, stance, posture) for stance, posture in zip(replay.stances, self.postures, strict=True)
         ]
@@ -294,7 +291,7 @@ class ClimbView(PlanView[Snapshot]):
         """Pose and holds."""
         posture = at.posture
         pose = describe_pose(self.task, posture.x, posture.y, posture.angle)
-        return pose, describe_holds(self.task, self.replay.stances[step])
+        return pose, describe_holds(self.task, self.replay.stances["hold"][step])
 
 
 def settle(task: LimbedTask, stance: np.void, posture: Posture) -> Snapshot:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ....planning.problem.problem import Records
 from ....types import Complexes, Floats
 from ..robot.robot import Limb, LimbedRobot
 from ..world.board import Board
@@ -183,8 +182,3 @@ def end_effector(kind: str, tip: Floats, direction: float, size: float, *, close
         gap = {"hook": math.radians(75), "gripper": math.radians(12 if closed else 60)}[kind]
         line = at + size * ahead * np.exp(1j * np.linspace(gap, math.tau - gap, 25))
     return np.stack([line.real, line.imag], axis=-1)
-
-
-def postures(robot: LimbedRobot, board: Board, stances: Records) -> list[Posture]:
-    """The posture of every stance."""
-    return [stance_posture(robot, board, stance) for stance in stances]

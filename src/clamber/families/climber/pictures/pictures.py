@@ -25,10 +25,10 @@ from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
 from ..trials.run_plan import ClimbRun
 from .alone import board_alone, climber_alone
-from .artists import ClimberArtists, Snapshot, draw_scene, find_bounds, torque_gauges, torque_limits
+from .artists import ClimberArtists, draw_scene, find_bounds, torque_gauges, torque_limits, unloaded
 from .climb_run import ClimbFilm, run_picture
 from .climb_view import ClimbView, Transition, draw_climb, near_climb
-from .geometry import Posture, postures
+from .geometry import Posture, stance_posture
 from .report import climb_page
 
 ROWS: Final = 2
@@ -48,7 +48,9 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
         shown = [view.settled(step) for step in range(len(actions) + 1)]
         titles = ["start", *(action.title for action in actions)]
         points = np.vstack([np.vstack([at.posture.outline, at.posture.chains.reshape(-1, 2)]) for at in shown])
-        bounds = _around(points)
+        low = points.min(axis=0) - ROOM
+        high = points.max(axis=0) + ROOM
+        bounds = float(low[0]), float(high[0]), float(low[1]), float(high[1])
         columns = -(-len(shown) // ROWS)
         height = 2.1 * (bounds[3] - bounds[2]) / (bounds[1] - bounds[0])
         figure = Figure(figsize=(2.1 * columns, ROWS * (height + 0.35)), layout="constrained")
@@ -62,11 +64,6 @@ def draw_stages(run: ClimbRun, path: str | Path) -> None:
                 axes.set_title(f"{k}  {titles[k]}", fontsize=7.5, fontweight="normal", pad=9)
                 axes.tick_params(labelsize=6)
         save_figure(figure, path)
-
-
-def _around(points: Floats) -> Bounds:
-    low, high = points.min(axis=0) - ROOM, points.max(axis=0) + ROOM
-    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
 
 def draw_body_over_time(run: ClimbRun, path: str | Path) -> None:
@@ -120,7 +117,7 @@ ARC: Final = 12
 
 def climb_route(task: LimbedTask, replay: Replay) -> Figure:
     """A whole climb as one picture."""
-    shown = postures(task.robot, task.world, replay.stances)
+    shown = [stance_posture(task.robot, task.world, stance) for stance in replay.stances]
     bounds = find_bounds(task, shown)
     uses = [
         shorten(wrap_words(f"{name}:  " + " › ".join(map(str, numbers))))
@@ -142,11 +139,10 @@ def climb_route(task: LimbedTask, replay: Replay) -> Figure:
 
 
 def _draw_ghosts(wall: Axes, task: LimbedTask, shown: list[Posture], bounds: Bounds) -> None:
-    unloaded = np.zeros((len(task.robot.limbs), 2))
     last = len(shown) - 1
     for k in pick_ghosts(np.array([(posture.x, posture.y) for posture in shown])):
         climber = ClimberArtists(wall, task, bounds, alpha=1.0 if k == last else 0.3, arrows=False)
-        climber.update(Snapshot(shown[k], unloaded, unloaded))
+        climber.update(unloaded(shown[k]))
         if k < last:
             label_ghost(wall, k, shown[k].x, shown[k].y)
 

@@ -18,8 +18,7 @@ from ....viewing.scene import Bounds, join
 from ..execution.climb_report import LoggedClimb
 from ..execution.climb_trace import ClimbTrace
 from ..planning.task import LimbedTask
-from ..trials.plan_validation import validations
-from ..trials.planning import plan_to_climb
+from ..trials.planning import plan_to_climb, validations
 from ..trials.run_plan import ClimbRun, climbing_flaws, climbing_task
 from .board_editor import BoardPanel
 from .climb_run import ClimbFilm, run_film

@@ -170,7 +170,6 @@ def _holds(task: LimbedTask) -> Records:
 def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_vertices: int) -> Records:
     """Goal records; the polygons of regions are added behind the keep-outs."""
     out = np.zeros(len(task.goals), GOAL)
-    numbers = {int(number): index for index, number in enumerate(task.world.numbers())}
     at = (task.start.x, task.start.y)
     way = 0.0
     for row, goal in zip(out, task.goals, strict=True):
@@ -190,7 +189,7 @@ def _goals(task: LimbedTask, polygons: list[tuple[tuple[float, float], ...]], n_
         row["hangs"] = goal.hangs
         row["hold"] = -1
         for name, number in goal.holds.items():
-            row["hold"][task.robot.limb_index(name)] = numbers[number]
+            row["hold"][task.robot.limb_index(name)] = task.world.index_of(number)
         there = _middle(goal, at)
         row["before"] = way
         row["way"] = math.hypot(there[0] - at[0], there[1] - at[1])

@@ -1,5 +1,6 @@
 """The inventory of a limbed climber: every action module a gene can be, and the named filters that make it smaller without loss."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final
 
@@ -26,9 +27,14 @@ class Module:
     codes: tuple[int, ...]
 
     @property
+    def code(self) -> Code:
+        """The first action."""
+        return Code.of(self.codes[0])
+
+    @property
     def kind(self) -> str:
         """Kind of a single action; "macro" for several."""
-        return Code.of(self.codes[0]).kind if len(self.codes) == 1 else "macro"
+        return self.code.kind if len(self.codes) == 1 else "macro"
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,44 +105,28 @@ def make_inventory(task: LimbedTask, *, filters: bool = True) -> Inventory:
         SpecError: If `rules.allowed` names something that is no action.
     """
     ranks = most_in_reach(task)
-    most = max(3, *ranks)
-    modules = full_inventory(task, most)
+    modules = full_inventory(task, max(3, *ranks))
     full_size = len(modules)
     dropped: list[Dropped] = []
 
-    def drop(name: str, reason: str, gone: set[str]) -> None:
+    def drop(name: str, reason: str, goes: Callable[[Module], bool]) -> None:
         nonlocal modules
+        gone = tuple(module.name for module in modules if goes(module))
         if gone:
-            dropped.append(Dropped(name, reason, tuple(module.name for module in modules if module.name in gone)))
-            modules = tuple(module for module in modules if module.name not in gone)
+            dropped.append(Dropped(name, reason, gone))
+            modules = tuple(module for module in modules if not goes(module))
 
     allowed = _allowed(task, modules)
-    drop("rules", "not in 'rules.allowed'", {module.name for module in modules if module.name not in allowed})
+    drop("rules", "not in 'rules.allowed'", lambda module: module.name not in allowed)
     if filters:
-        drop("no_effect", "changes nothing", {module.name for module in modules if module.kind == "none"})
-        beyond = {
-            module.name
-            for module in modules
-            if module.kind == "nearest" and Code.of(module.codes[0]).argument > ranks[Code.of(module.codes[0]).limb]
-        }
-        drop("rank_clip", f"no limb ever has more than {max(ranks)} holds in reach", beyond)
-        ranked = {Code.of(module.codes[0]).limb for module in modules if module.kind == "nearest"}
-        named = {
-            module.name
-            for module in modules
-            if module.kind in ("hold", "random")
-            and Code.of(module.codes[0]).limb in ranked
-            and "nearest" in _kinds(task)
-        }
-        drop("named_by_rank", "every free hold in reach is some N9k", named)
+        drop("no_effect", "changes nothing", lambda module: module.kind == "none")
+        most = f"no limb ever has more than {max(ranks)} holds in reach"
+        drop("rank_clip", most, lambda it: it.kind == "nearest" and it.code.argument > ranks[it.code.limb])
+        ranked = {module.code.limb for module in modules if module.kind == "nearest"}
+        if task.rules.allowed is None or {"nearest", "grab"} & set(task.rules.allowed):
+            why = "every free hold in reach is some N9k"
+            drop("named_by_rank", why, lambda it: it.kind in ("hold", "random") and it.code.limb in ranked)
     return Inventory(modules, full_size, tuple(dropped))
-
-
-def _kinds(task: LimbedTask) -> set[str]:
-    if task.rules.allowed is None:
-        return set(WORDS)
-    grabs = {"nearest", "hold", "random"} if "grab" in task.rules.allowed else set()
-    return {word for word in task.rules.allowed if word in WORDS} | grabs
 
 
 def _allowed(task: LimbedTask, modules: tuple[Module, ...]) -> set[str]:

@@ -73,12 +73,8 @@ def _graph(cost: Floats, rows: int, columns: int) -> object:
 
 def _inside(goal: Goal, places: Floats, task: LimbedTask, points: Floats) -> npt.NDArray[np.bool_]:
     """Places that a goal's box holds, or the one nearest to it; named holds draw the body to where they are all in reach."""
-    x_min, x_max, y_min, y_max = goal.box
-    if goal.region is not None:
-        xs, ys = zip(*goal.region, strict=True)
-        x_min, x_max, y_min, y_max = max(x_min, min(xs)), min(x_max, max(xs)), max(y_min, min(ys)), min(y_max, max(ys))
+    off = goal.off(places)
     x, y = places.T
-    off = np.hypot(np.maximum(np.maximum(x_min - x, x - x_max), 0.0), np.maximum(np.maximum(y_min - y, y - y_max), 0.0))
     for number in goal.holds.values():
         hold = task.world.by_number(number)
         off += np.maximum(np.hypot(x - hold.x, y - hold.y) - task.robot.longest_reach, 0.0)

@@ -1,10 +1,8 @@
 """Plans of limbed climbers: packed codes as named actions and back, and the thesis's numbers for them."""
 
 import math
-from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import replace
-from operator import attrgetter
 from typing import Final
 
 import numpy as np
@@ -166,12 +164,8 @@ class LimbedPlans(PlanFamily):
         return found
 
     def _number(self, task: LimbedTask, number: int) -> int | None:
-        return number if has_numbers(task) else None
-
-
-def has_numbers(task: LimbedTask) -> bool:
-    """Whether the thesis's numbers can name every action of a task."""
-    return len(task.robot.limbs) <= 9 and task.world.holds[-1].number <= LARGEST_PEG
+        """One of the thesis's numbers, where these can name every action of a task."""
+        return number if len(task.robot.limbs) <= 9 and task.world.holds[-1].number <= LARGEST_PEG else None
 
 
 def hold_code(task: LimbedTask, limb: int, number: int) -> int:
@@ -181,8 +175,8 @@ def hold_code(task: LimbedTask, limb: int, number: int) -> int:
         ActionError: If the board has no such hold.
     """
     holds = task.world.holds
-    index = bisect_left(holds, number, key=attrgetter("number"))
-    if index == len(holds) or holds[index].number != number:
+    index = task.world.index_of(number)
+    if index is None:
         listed = f"it has {len(holds)}, from {holds[0].number} to {holds[-1].number}"
         raise ActionError("hold", f"board '{task.world.name}' has no hold {number}; {listed}")
     return pack(HOLD, limb, index)

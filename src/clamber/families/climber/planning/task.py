@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated, Final, Literal
 
+import numpy as np
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
 from ....errors import SpecError
@@ -12,7 +13,7 @@ from ....notebook import Pictured
 from ....specs import Name, spec
 from ....tasks import Task
 from ....tasks.regions import GoalBox
-from ....types import Json
+from ....types import Floats, Json
 from ....units import (
     INCH,
     Angle,
@@ -150,6 +151,18 @@ class Goal(GoalBox):
     """Turns of the body's origin about `centre`, at least so many; anticlockwise positive [-]."""
     centre: Point | None = None
     """What the turns are about [m]."""
+
+    def off(self, places: Floats) -> Floats:
+        """How far places, shape (n, 2), are from the box, less what of it is not about the region, shape (n,) [m]."""
+        x_min, x_max, y_min, y_max = self.box
+        if self.region is not None:
+            xs, ys = zip(*self.region, strict=True)
+            x_min, x_max = max(x_min, min(xs)), min(x_max, max(xs))
+            y_min, y_max = max(y_min, min(ys)), min(y_max, max(ys))
+        x, y = places.T
+        off_x = np.maximum(np.maximum(x_min - x, x - x_max), 0.0)
+        off_y = np.maximum(np.maximum(y_min - y, y - y_max), 0.0)
+        return np.asarray(np.hypot(off_x, off_y))
 
 
 @spec

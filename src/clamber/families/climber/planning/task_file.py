@@ -5,8 +5,6 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
 
-import numpy as np
-
 from ....errors import describe_choices
 from ....files import Document, check_schema
 from ....specs import build_spec, field_names
@@ -119,17 +117,13 @@ def check_centres(keys: tuple[str, ...], goals: tuple[Goal, ...], document: Docu
 
 def _check_limbs(named: Mapping[str, object], key: str, robot: LimbedRobot, document: Document) -> None:
     for limb in named:
-        if limb not in robot.limb_names:
-            raise document.problem(f"{key}.{limb}", _unknown_limb(limb, robot))
+        _check_limb(limb, f"{key}.{limb}", robot, document)
 
 
 def _check_limb(limb: str, key: str, robot: LimbedRobot, document: Document) -> None:
     if limb not in robot.limb_names:
-        raise document.problem(key, _unknown_limb(limb, robot))
-
-
-def _unknown_limb(limb: str, robot: LimbedRobot) -> str:
-    return f"unknown limb; robot '{robot.name}' has {describe_choices(limb, robot.limb_names)}"
+        known = describe_choices(limb, robot.limb_names)
+        raise document.problem(key, f"unknown limb; robot '{robot.name}' has {known}")
 
 
 def listed(numbers: set[int]) -> str:
@@ -139,17 +133,7 @@ def listed(numbers: set[int]) -> str:
 
 def _nearest(goal: Goal, board: Board) -> float:
     """Distance of the nearest hold from the goal's box, or from the box around its region [m]."""
-    x_min, x_max, y_min, y_max = goal.box
-    if goal.region is not None:
-        xs, ys = zip(*goal.region, strict=True)
-        x_min, x_max = max(x_min, min(xs)), min(x_max, max(xs))
-        y_min, y_max = max(y_min, min(ys)), min(y_max, max(ys))
-    x, y = board.positions().T
-    away_x, away_y = (
-        np.maximum(np.maximum(x_min - x, x - x_max), 0.0),
-        np.maximum(np.maximum(y_min - y, y - y_max), 0.0),
-    )
-    return float(np.hypot(away_x, away_y).min())
+    return float(goal.off(board.positions()).min())
 
 
 DEFAULT_FOOT: Final = 0.6

@@ -220,6 +220,11 @@ class LimbedRobot(Pictured):
         """Such as "left elbow", in the order of `joints`."""
         return tuple(f"{limb.name} {joint}" for limb in self.limbs for joint in ("shoulder", "elbow"))
 
+    @property
+    def inertias(self) -> Floats:
+        """Of rotors and gears, in the order of `joints`, shape (2 limbs,) [kg m^2]."""
+        return np.array([joint.inertia for joint in self.joints])
+
     def torque_limit_of(self, joint: Joint) -> float:
         """Its own, or that of all motors [N m]."""
         return joint.torque_limit or self.motor.torque_limit

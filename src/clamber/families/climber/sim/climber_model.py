@@ -20,11 +20,8 @@ from ....units import GRAVITY, INCH
 from ..control.limb_chain import chain_of_limb
 from ..robot.robot import Limb, LimbedRobot, body_inertia, body_mass
 from ..world.board import Board
-from .grippers import add_gripper
+from .grippers import PEG_SOLIMP, PEG_SOLREF, add_gripper
 
-PEG_SOLREF: Final = (0.004, 1.0)
-PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
-"""Stiff contacts: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
 HOOKS, PEGS, LINKS, WALL = 1, 2, 4, 8
 """Bits of what may touch what: hooks and links touch pegs, a wall and the ball that presses it each other, nothing else touches."""
 
@@ -95,23 +92,6 @@ def climber_spec(
             hand.ipos = np.zeros(3)
             add_sensor(mujoco, spec, "hand", hand)
             add_wall(mujoco, spec, hand, flaws.wall, contype=WALL, conaffinity=WALL)
-    return spec
-
-
-def lone_climber_spec(robot: LimbedRobot, flaws: LimbFlaws, *, peg_radius: float) -> Any:
-    """An `MjSpec` of the robot by itself, as `climber_spec` has it.
-
-    Args:
-        robot: The climber.
-        flaws: Of joints and motors.
-        peg_radius: Of the pegs that its hooks and grippers are for [m].
-    """
-    import mujoco
-
-    spec = _empty_spec(mujoco, flaws)
-    body = _add_body(mujoco, spec, robot)
-    for limb in robot.limbs:
-        _add_limb(mujoco, spec, body, robot, limb, flaws, HookShape(), peg_radius)
     return spec
 
 
@@ -215,10 +195,15 @@ END_MODELS: Final[dict[str, Callable[..., None]]] = {"hook": _add_hook, "foot": 
 
 
 def lone_climber(robot: LimbedRobot) -> tuple[Any, dict[str, JointBounds]]:
-    """`MjSpec` of a climber alone, and the bounds of its joints."""
-    spec = lone_climber_spec(robot, LimbFlaws(joint_limits=True), peg_radius=PEG_RADIUS)
+    """`MjSpec` of a climber alone, as `climber_spec` has it, and the bounds of its joints."""
+    import mujoco
+
+    flaws = LimbFlaws(joint_limits=True)
     bounds = {}
+    spec = _empty_spec(mujoco, flaws)
+    body = _add_body(mujoco, spec, robot)
     for limb in robot.limbs:
+        _add_limb(mujoco, spec, body, robot, limb, flaws, HookShape(), PEG_RADIUS)
         chain = chain_of_limb(robot, limb.name)
         for name, record in zip(chain.joint_names, chain.joints, strict=True):
             lower, upper, limit, speed = (float(record[key]) for key in ("lower", "upper", "limit", "speed"))

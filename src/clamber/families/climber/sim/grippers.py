@@ -16,9 +16,9 @@ BACK: Final = math.radians(60.0)
 """How far open jaws come round the tip from straight behind it, either way [rad]: a peg may come in from any direction before it."""
 CHORDS: Final = 4
 """Straight pieces of that arc."""
-PIN_SOLREF: Final = (0.004, 1.0)
-PIN_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
-"""As stiff as a peg in a hook."""
+PEG_SOLREF: Final = (0.004, 1.0)
+PEG_SOLIMP: Final = (0.95, 0.99, 0.0005, 0.5, 2.0)
+"""Stiff contacts and pins: under the robot's weight a peg sinks less than a tenth of a millimetre into a hook."""
 RADII: Final = 6.0
 """Width between open jaws over a hold's radius, for grippers that state none [-]."""
 
@@ -61,7 +61,7 @@ def add_gripper(mujoco: Any, spec: Any, link: Any, limb: Limb, tip: Floats, peg_
     pin = spec.add_equality(name=grip_name(limb), type=mujoco.mjtEq.mjEQ_CONNECT, objtype=mujoco.mjtObj.mjOBJ_BODY)
     pin.name1, pin.active = link.name, False
     pin.data[:3] = tip
-    pin.solref, pin.solimp = PIN_SOLREF, PIN_SOLIMP
+    pin.solref, pin.solimp = PEG_SOLREF, PEG_SOLIMP
 
 
 GIVING_WAY: Final = 0.02

@@ -50,7 +50,7 @@ def body_stiffness(stand: BodyStand, gains: BodyGains, pose: Floats | None = Non
 def _wrench(stand: BodyStand, gains: BodyGains, aim: Floats, pose: Floats) -> Floats:
     """What the limbs' torques bring to the body about its origin, world frame, shape (3,)."""
     body = WholeBody(stand.robot, period=PERIOD, gains=gains, backlash=0.0)
-    places = {hold.number: np.array((hold.x, hold.y)) for hold in stand.board.holds}
+    places = stand.board.places()
     for i, limb in enumerate(stand.robot.limbs):
         number = stand.holds.get(limb.name, 0)
         body.assign(i, LimbTask("stance", number, places[number].copy()) if number else LimbTask("swing_joint"))

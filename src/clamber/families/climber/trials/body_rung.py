@@ -16,7 +16,7 @@ from ....units import INCH
 from ..execution.body_gains import BodyGains
 from ..execution.climb_trace import ClimbTrace, TracedClimber
 from ..execution.climber import Climber, FallenError
-from ..execution.ends import grab, release
+from ..execution.grabbing import grab, release
 from ..execution.motions import move_body
 from ..planning.task import LimbedTask
 from ..sim.climber_plant import ClimberPlant
@@ -138,16 +138,16 @@ def _climb_on(
 
 def _climb(climber: Climber) -> str:
     """Carry the rung out; why it ended early, or nothing."""
-    names = [limb.name for limb in climber.robot.limbs]
+    index = climber.robot.limb_index
     start = np.array(START)
     climber.start(start, {"right": 4, "left": 3, "bottom": 2}, idle="bottom", elbows=ELBOWS)
     try:
         climber.wait(0.5)
         climber.learn_start()
         for limb, number, elbow in GRABS:
-            if not grab(climber, names.index(limb), number, elbow=elbow).held:
+            if not grab(climber, index(limb), number, elbow=elbow).held:
                 return f"the {limb} limb missed {number}"
-        release(climber, names.index("bottom"))
+        release(climber, index("bottom"))
         move_body(climber, start + np.array((0.0, 6 * INCH, 0.0)))
         climber.wait(0.5)
     except FallenError as error:

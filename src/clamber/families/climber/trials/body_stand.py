@@ -72,7 +72,7 @@ class BodyStand:
             PlantError: If a hold is out of reach there.
         """
         q = np.zeros((len(self.robot.limbs), 2))
-        places = {hold.number: np.array((hold.x, hold.y)) for hold in self.board.holds}
+        places = self.board.places()
         for i, limb in enumerate(self.robot.limbs):
             q[i] = self.rest.get(limb.name, (0.0, 0.0))
             if limb.name in self.holds:
@@ -151,8 +151,7 @@ class BodyScenario:
     @property
     def time(self) -> Floats:
         """Of each tick; 0 where the measured part begins [s]."""
-        out: Floats = self.period * np.arange(-self.begin, len(self.aims) - self.begin, dtype=np.float64)
-        return out
+        return np.asarray(self.period * np.arange(-self.begin, len(self.aims) - self.begin, dtype=np.float64))
 
 
 def circle(pose: Floats, period: float, *, radius: float, lap: float, laps: int = 2) -> BodyScenario:

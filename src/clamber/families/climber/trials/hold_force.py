@@ -210,5 +210,4 @@ def _friction_by_motion(leg: np.void, q: Floats, qd: Floats, angle: float, push:
     jacobian = np.array(((-y1 - y2, -y2), (x1 + x2, x2)))
     wrong = np.tanh(jacobian.T @ push / RESTS)
     torques = np.array((leg["friction1"], leg["friction2"])) * (np.tanh(qd / MOVING) - wrong)
-    force: Floats = np.linalg.solve(jacobian.T, torques)
-    return force
+    return np.asarray(np.linalg.solve(jacobian.T, torques))

@@ -77,8 +77,7 @@ def terrain_covariance(task: LimbedTask, warped: float, tilt: float) -> Floats |
 
     def alike(a: Floats, b: Floats) -> Floats:
         squares = ((a[:, None] - b[None]) ** 2).sum(axis=2)
-        out: Floats = np.exp(-squares / (2.0 * smooth**2))
-        return out
+        return np.asarray(np.exp(-squares / (2.0 * smooth**2)))
 
     to_start = alike(places, centre[None])
     common = warped**2 / 6.0 * (alike(places, places) - to_start @ to_start.T)
@@ -210,23 +209,11 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
 
     return Drawn(
         terrain=np.zeros((n_holds, 2)),
-        tilt=float(share("tilt")),
         missing=np.zeros(n_holds, np.bool_),
         pegs=share("peg_error", n_holds, 2),
         joint_friction=share("joint_friction", n, 2),
         joint_angle=share("joint_angle", n, 2),
-        **{
-            key: float(share(key))
-            for key in (
-                "backlash",
-                "assumed_backlash",
-                "friction",
-                "payload",
-                "hook_play",
-                "hook_friction",
-                "body_angle",
-            )
-        },
+        **{key: float(share(key)) for key, kind in NOISE.items() if not kind.many},
     )
 
 

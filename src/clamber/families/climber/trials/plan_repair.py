@@ -20,7 +20,7 @@ from ....trials.work import Work
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
 from .noise import named_noise, read_noise
-from .plan_validation import grab_before
+from .planning import grab_before
 from .planning_margins import PLANNING_MARGINS, steady
 from .rerouting import cut_before, grabs_of, other_end, repaired, without
 from .run_plan import climbing_task

@@ -12,7 +12,7 @@ from ....planning.beam import plan_beam
 from ....planning.problem.plan import Plan
 from ..control.limb_chain import legs_of
 from ..execution.body_gains import USUAL_WEIGHT
-from ..execution.contact_capacity import load_capacity
+from ..execution.elbows import load_capacity
 from ..execution.executable_plan import ExecutablePlan, lay_course
 from ..execution.remaining_task import task_from_here
 from ..execution.swing_feasibility import grabs_without_way

@@ -30,7 +30,6 @@ from ..execution.climb_trace import TOPIC, ClimbTrace, TracedClimber, limb_notes
 from ..execution.climbing import Climbing, Progress, Replan
 from ..execution.executable_plan import climbable, lay_course
 from ..planning.task import LimbedTask, limbed
-from ..robot.robot import LimbedRobot
 from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_for, terrain_covariance, true_places
 from .plants import climbing_plant, drawn_plant, truth_of
 from .warm_up import warm_up
@@ -49,11 +48,6 @@ def failing_of(task: LimbedTask, plan: Plan) -> Failing:
     holds = tuple(dict.fromkeys(hold for hold in taken if hold))[:GRABS]
     sensors = dict(zip(names, spans, strict=True)) | {"body": math.tau}
     return Failing(sensors=sensors, motors=names, holds=holds, weight=robot.weight)
-
-
-def failing_body(robot: LimbedRobot, plant: BodyPlant, fault: Fault) -> FaultyBody:
-    """The plant with a fault."""
-    return FaultyBody(plant, fault, np.array([joint.inertia for joint in robot.joints]))
 
 
 PHYSICS_RATE: float = 1000.0
@@ -188,12 +182,14 @@ def run_plan(
     check_noise(noise, task.robot, flaws)
     drawn = draw_for(task, noise, seed)
     with climbing_plant(plant, task, lambda: drawn_plant(task, flaws, drawn)) as moved:
-        body = moved if fault is None else failing_body(task.robot, moved, fault)
+        body = moved if fault is None else FaultyBody(moved, fault, task.robot.inertias)
         climber = believing_climber(task, body, noise, drawn, gains)
         again = None if replan is None else timed_replan
         sequencer = Sequencer(Climbing(climber, course, replan=again, force=force), progress=progress)
         scene = climb_scene(task, true=climber.truth is not None)
-        with growing_log(log, climber.samples, climber.titles, limb_notes(climber.limbs), TOPIC, scene) as finish:
+        with growing_log(
+            log, climber.samples, climber.titles, limb_notes(task.robot.limb_names), TOPIC, scene
+        ) as finish:
             report = sequencer.run()
             notes = report.to_json() | {"task": task.name, "noise": noise.to_json(), "seed": seed}
             if fault is not None:

@@ -21,8 +21,7 @@ from ..execution.climbing import Progress, Replan
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
 from .noise import NOISE, Noise, check_noise, noise_of
-from .plan_validation import validations
-from .planning import QUIET, no_plan, plan_to_climb, replanner
+from .planning import QUIET, no_plan, plan_to_climb, replanner, validations
 from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
@@ -299,7 +298,8 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
     plan = plans[len(report.replans)]  # one that is refused ends the climb, so those taken come first
     limb = None if last is None or plan is None else plan.actions[last.first - 1].limb
     grabs = [action for action in report.actions if action.kind == "grab"]
-    taken = [k for k, hold in enumerate(setup.task.world.holds) if hold.number in _grabbed(setup.plan)]
+    grabbed = {action.hold for action in setup.plan.actions} if setup.plan is not None else set()
+    taken = [k for k, hold in enumerate(setup.task.world.holds) if hold.number in grabbed]
     return ClimbTrial(
         seed=seed,
         done=report.done,
@@ -318,10 +318,6 @@ def _judged(setup: TrialSetup, seed: int, run: ClimbRun, told: list[Json | None]
         drawn=run.drawn.to_json(np.array(taken, np.int32)),
         fault=told_fault(run.fault, report.done, report),
     )
-
-
-def _grabbed(plan: Plan | None) -> set[int]:
-    return set() if plan is None else {action.hold for action in plan.actions if action.hold is not None}
 
 
 def _outcome(run: ClimbRun) -> str:

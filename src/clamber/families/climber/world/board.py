@@ -107,14 +107,23 @@ class Board(Pictured):
         Raises:
             UnknownHoldError: If the board has none.
         """
+        index = self.index_of(number)
+        if index is None:
+            raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
+        return self.holds[index]
+
+    def index_of(self, number: int) -> int | None:
+        """Place of the hold with this number among `holds`; None: the board has none."""
         index = bisect_left(self.holds, number, key=attrgetter("number"))
-        if index < len(self.holds) and self.holds[index].number == number:
-            return self.holds[index]
-        raise UnknownHoldError(number, self.name, tuple(hold.number for hold in self.holds))
+        return index if index < len(self.holds) and self.holds[index].number == number else None
 
     def positions(self) -> Floats:
         """Centres of the holds [m], world frame, in the order of `holds`, shape (n_holds, 2)."""
         return np.array([(hold.x, hold.y) for hold in self.holds], dtype=np.float64).reshape(-1, 2)
+
+    def places(self) -> dict[int, Floats]:
+        """Number of each hold -> its centre, world frame, shape (2,) [m]."""
+        return dict(zip(self.numbers().tolist(), self.positions(), strict=True))
 
     def numbers(self) -> Ints:
         """Numbers of the holds, in the order of `holds`, shape (n_holds,)."""
@@ -266,7 +275,10 @@ def build_board(document: Document) -> Board:
     if generator is not None and stated.hold_radius is None:
         raise document.problem("hold_radius", "must be given beside a generator, such as '5 mm'")
     if stated.ladder is not None:
-        _check_removed(stated.ladder, document)
+        most = 2 * stated.ladder.rungs
+        for number in stated.ladder.removed:
+            if not 1 <= number <= most:
+                raise document.problem("ladder.removed", f"must be numbers from 1 to {most}; {number} is not")
     if stated.grid is not None and stated.grid.rows * stated.grid.columns > MOST_HOLDS:
         raise document.problem("grid", f"makes {stated.grid.rows * stated.grid.columns} holds; at most {MOST_HOLDS}")
     radius = stated.hold_radius or 0.0
@@ -307,12 +319,6 @@ def _with_radius(document: Document) -> Document:
         for key, holds in lists.items()
     }
     return Document(document.label, document.data | filled, document.overrides, document.folder)
-
-
-def _check_removed(ladder: LadderSpec, document: Document) -> None:
-    for number in ladder.removed:
-        if not 1 <= number <= 2 * ladder.rungs:
-            raise document.problem("ladder.removed", f"must be numbers from 1 to {2 * ladder.rungs}; {number} is not")
 
 
 def _random_holds(random: RandomSpec, radius: float, document: Document) -> tuple[Hold, ...]:
