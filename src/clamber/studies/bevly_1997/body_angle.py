@@ -3,7 +3,6 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -13,6 +12,7 @@ from ...families.climber.control.limb_chain import legs_of
 from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
+from ...viewing.study_lines_plot import draw_angle_errors
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import PEG_ERROR
@@ -166,20 +166,15 @@ def _held(replayed: Replayed, two: list[int], pose: Floats, places: Floats, rng:
 
 
 def _figure(held: list[Held]) -> Figure:
-    def picture(path: Path) -> None:
-        from ...viewing.study_lines_plot import draw_angle_errors
-
-        draw_angle_errors(
+    return Figure(
+        "errors",
+        "RMS error of the body's angle at each stance, by how steep the line between its two holds is.",
+        lambda path: draw_angle_errors(
             np.array([one.inclined for one in held]) / DEGREE,
             {
                 "height of the second tip (4.4.3)": [_rms(one.printed[:, 2]) / DEGREE for one in held],
                 "line between the tips": [_rms(one.line[:, 2]) / DEGREE for one in held],
             },
             path,
-        )
-
-    return Figure(
-        "errors",
-        "RMS error of the body's angle at each stance, by how steep the line between its two holds is.",
-        picture,
+        ),
     )

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.execution.executable_plan import climbable
+from ...families.climber.pictures.pictures import draw_body_over_time, draw_stages
 from ...families.climber.planning.plans import thesis_code
 from ...families.climber.planning.task import LimbedTask
 from ...families.climber.trials.body_bench import SLOT
@@ -280,12 +280,7 @@ def _gait_numbers(run: ClimbRun, facts: GaitFacts) -> dict[str, Value]:
 
 def _pictures(found: Mapping[str, tuple[ClimbRun, GaitFacts]], name: str, caption: str) -> tuple[Figure, ...]:
     """One of every control's climb: "stages" or "times"."""
-
-    def draw(run: ClimbRun, path: Path) -> None:
-        from ...families.climber.pictures.pictures import draw_body_over_time, draw_stages
-
-        (draw_stages if name == "stages" else draw_body_over_time)(run, path)
-
+    draw = draw_stages if name == "stages" else draw_body_over_time
     return tuple(
         Figure(f"{name}{SUFFIXES[label]}", f"{label}: {caption}", partial(draw, run))
         for label, (run, _) in found.items()

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -12,6 +11,7 @@ from ...families.climber.trials.body_bench import SLOT, BodyEntry, BodyRun, run_
 from ...families.climber.trials.body_entries import COORDINATED, read_gains
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...types import Floats
+from ...viewing.study_lines_plot import Points, draw_panels
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import EARLIER, PEG_ERROR, PLANT, SCCT, TABLE_4_1
@@ -159,10 +159,10 @@ def _row(way: tuple[str, str], run: BodyRun) -> tuple[Value, ...]:
 
 
 def _figure(standing: Mapping[tuple[str, str], BodyRun], time: Floats) -> Figure:
-    def picture(path: Path) -> None:
-        from ...viewing.study_lines_plot import Points, draw_panels
-
-        draw_panels(
+    return Figure(
+        "heights",
+        "Height of the body over its aim at rest, pegs as the map has them.",
+        lambda path: draw_panels(
             {
                 f"weight {weight}": {
                     label: Points(time, (run.trace.pose[:, 1] - run.trace.aim[:, 1]) * MILLI)
@@ -174,6 +174,5 @@ def _figure(standing: Mapping[tuple[str, str], BodyRun], time: Floats) -> Figure
             ("time [s]", "body above its aim [mm]"),
             "The body at rest on two hooks",
             path,
-        )
-
-    return Figure("heights", "Height of the body over its aim at rest, pegs as the map has them.", picture)
+        ),
+    )

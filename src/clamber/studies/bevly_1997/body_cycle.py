@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 from itertools import product
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.pictures.body_plots import draw_onsets
 from ...families.climber.sim.climber_model import HookShape
 from ...families.climber.trials.body_bench import BodyEntry, run_body
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
@@ -108,14 +108,6 @@ def sweep_stiffness() -> StudyResult:
         (*case, onsets[case] or f"none to {GAINS[-1]:.3g}", *(round(swing, 2) for swing in found))
         for case, found in swings.items()
     ]
-
-    def picture(path: Path) -> None:
-        from ...families.climber.pictures.body_plots import draw_onsets
-
-        draw_onsets(
-            GAINS, {case: found for case, found in swings.items() if case[0] == "on hooks"}, CYCLE * MILLI, path
-        )
-
     return StudyResult(
         claim="Section 4.4.4: as x is measured at one leg but +x is controlled by the other, joint backlash and the play between hooks and "
         "pegs limit how stiff LIBRA can be along x.",
@@ -156,5 +148,13 @@ def sweep_stiffness() -> StudyResult:
             ("held", "place by", "backlash [deg]", "play", "cycles from Kpx", *(f"{kpx:.4g} [mm]" for kpx in GAINS)),
             tuple(rows),
         ),
-        figures=(Figure("onsets", "Motion to and fro along x that is left, by Kpx.", picture),),
+        figures=(
+            Figure(
+                "onsets",
+                "Motion to and fro along x that is left, by Kpx.",
+                lambda path: draw_onsets(
+                    GAINS, {case: found for case, found in swings.items() if case[0] == "on hooks"}, CYCLE * MILLI, path
+                ),
+            ),
+        ),
     )

@@ -4,13 +4,13 @@ import os
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.execution.climb_trace import ClimbTrace
+from ...families.climber.pictures.pictures import draw_heights
 from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs, watch_rung
 from ...jobs import LocalProcesses
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
@@ -49,12 +49,6 @@ def limit_pulls() -> StudyResult:
     """A rung with every alpha, without noise and with."""
     alone = {(label, plant): watch_rung(gains, plant) for label, gains in CONTROLS.items() for plant in PLANTS}
     noisy = climb_rungs(CONTROLS, SEEDS, executor=LocalProcesses(os.cpu_count() or 1))
-
-    def heights(path: Path) -> None:
-        from ...families.climber.pictures.pictures import draw_heights
-
-        draw_heights({label: alone[label, "ideal"][1] for label in CONTROLS}, path)
-
     return StudyResult(
         claim="Section 4.4.2: endpoint accelerations are limited to at least alpha along the grab direction, alpha some offset of 0 or "
         "more, so that a leg never pulls away from its peg.",
@@ -91,7 +85,11 @@ def limit_pulls() -> StudyResult:
         seeds=SEEDS,
         table=_table(noisy),
         figures=(
-            Figure("heights", "Height of the body less its aim on the ideal plant, without noise, by alpha.", heights),
+            Figure(
+                "heights",
+                "Height of the body less its aim on the ideal plant, without noise, by alpha.",
+                lambda path: draw_heights({label: alone[label, "ideal"][1] for label in CONTROLS}, path),
+            ),
         ),
     )
 

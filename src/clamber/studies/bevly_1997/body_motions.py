@@ -1,10 +1,10 @@
 """Figures 4.17 and 4.18: the body round a circle of 5 cm, both tips fixed, and pushed up by 7.5 cm in 0.5 s, hooks on pegs."""
 
 import math
-from pathlib import Path
 from typing import Final
 
 from ...families.climber.execution.body_gains import BodyGains
+from ...families.climber.pictures.body_plots import draw_body_circles, draw_body_times
 from ...families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, measure_body, run_bodies
 from ...families.climber.trials.body_stand import BodyScenario, bench_flaws, circle, ladder_stand, push_up
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -62,12 +62,6 @@ def lead_body() -> StudyResult:
                     math.degrees(told.turn_max),
                 ))  # fmt: skip
     ratios = {(m, lap): rms["ideal", lap, transpose(m)] / rms["ideal", lap, SCCT] for m in MATCHED for lap in LAPS}
-
-    def paths(path: Path) -> None:
-        from ...families.climber.pictures.body_plots import draw_body_circles
-
-        draw_body_circles(kept, path)
-
     return StudyResult(
         claim="Figure 4.17, section 4.5: with two legs held fixed SCCT leads the body round a circle of 5 cm almost perfectly; Jacobian "
         "transpose control shows errors in 6 s a lap and even in 12.5 s.",
@@ -96,7 +90,13 @@ def lead_body() -> StudyResult:
             "and hangs lower by weight over stiffness.",
         ),
         table=Table(CIRCLE_COLUMNS, tuple(rows)),
-        figures=(Figure("paths", "The second lap on the ideal plant; in the middle the radial RMS.", paths),),
+        figures=(
+            Figure(
+                "paths",
+                "The second lap on the ideal plant; in the middle the radial RMS.",
+                lambda path: draw_body_circles(kept, path),
+            ),
+        ),
     )
 
 
@@ -133,12 +133,7 @@ def push_body_up() -> StudyResult:
         ours, theirs = told["nominal", SCCT], told["nominal", f"J^T, {match}"]
         return ours.x_max < theirs.x_max and ours.behind_rms < theirs.behind_rms
 
-    def times(path: Path) -> None:
-        from ...families.climber.pictures.body_plots import draw_body_times
-
-        shown = {f"{plant} plant": [run for run in runs if run.entry.label != BIASED] for plant, runs in kept.items()}
-        draw_body_times(shown, "7.5 cm up in 0.5 s, hooks on pegs", path)
-
+    shown = {f"{plant} plant": [run for run in runs if run.entry.label != BIASED] for plant, runs in kept.items()}
     labels = [entry.label for entry in entries]
     return StudyResult(
         claim="Figure 4.18, section 4.5: in a step of 7.5 cm up in 0.5 s, hooks only pulling, SCCT keeps x = 22.8 cm and follows y "
@@ -176,5 +171,11 @@ def push_body_up() -> StudyResult:
             f'J^T with the same numbers ("{transpose("none")}") is too soft for the weight of its friction and hardly moves.',
         ),
         table=Table(RISE_COLUMNS, tuple(rows)),
-        figures=(Figure("times", "x, y, angle, and how far a hook is from its peg.", times),),
+        figures=(
+            Figure(
+                "times",
+                "x, y, angle, and how far a hook is from its peg.",
+                lambda path: draw_body_times(shown, "7.5 cm up in 0.5 s, hooks on pegs", path),
+            ),
+        ),
     )

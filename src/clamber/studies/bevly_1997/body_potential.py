@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -15,6 +14,7 @@ from ...families.climber.trials.body_rung import climb_rung
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand
 from ...plane import segment_polygon
 from ...types import Floats
+from ...viewing.study_lines_plot import Points, draw_panels
 from ..result import Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI
 from .body_entries import PLANT, TABLE_4_1
@@ -161,17 +161,16 @@ def _gap(robot: LimbedRobot, i: int, q: Floats) -> float:
 
 
 def _figure(runs: Mapping[tuple[str, str], Crossing]) -> Figure:
-    def picture(path: Path) -> None:
-        from ...viewing.study_lines_plot import Points, draw_panels
-
-        draw_panels(
-            {name: {place: Points(run.time, run.gap * MILLI) for (one, place), run in runs.items() if one == name}
-             for name in STRENGTHS},
+    return Figure(
+        "gaps",
+        "Gap between the bottom limb's second link and the body, by where its reference goes.",
+        lambda path: draw_panels(
+            {
+                name: {place: Points(run.time, run.gap * MILLI) for (one, place), run in runs.items() if one == name}
+                for name in STRENGTHS
+            },
             ("time [s]", "gap between second link and body [mm]"),
             "A limb whose reference crosses the body",
             path,
-        )  # fmt: skip
-
-    return Figure(
-        "gaps", "Gap between the bottom limb's second link and the body, by where its reference goes.", picture
+        ),
     )

@@ -1,12 +1,12 @@
 """Figure 4.19: the body pushed sideways, both hooks staying on; ten times as far along x as along y, or not."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...families.climber.execution.body_gains import BodyGains, usual_alpha
+from ...families.climber.pictures.body_plots import draw_body_times
 from ...families.climber.trials.body_bench import (
     BodyEntry,
     BodyRun,
@@ -152,12 +152,11 @@ def _table(trials: dict[str, list[PushTrial]]) -> Table:
 
 
 def _figure(runs: list[BodyRun]) -> Figure:
-    def times(path: Path) -> None:
-        from ...families.climber.pictures.body_plots import draw_body_times
-
-        draw_body_times({"": runs}, f"{HARD:g} N on the body for {SHORT:g} s (grey)", path)
-
-    return Figure("times", "The body pushed towards +x: SCCT with Table 4.1's gains and its rivals, as stiff.", times)
+    return Figure(
+        "times",
+        "The body pushed towards +x: SCCT with Table 4.1's gains and its rivals, as stiff.",
+        lambda path: draw_body_times({"": runs}, f"{HARD:g} N on the body for {SHORT:g} s (grey)", path),
+    )
 
 
 def _deviations(ratio: dict[str, float], needed: float, stiffer: float) -> tuple[str, ...]:

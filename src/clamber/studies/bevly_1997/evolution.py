@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from statistics import median
 from typing import Final
 
@@ -14,6 +13,7 @@ from ...planning.genetic.planner import plan_genetic
 from ...planning.genetic.profile import load_profile
 from ...planning.result import PlanResult
 from ...types import Floats
+from ...viewing.plan_curves import draw_history
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from .modified_ladder import HELD_OFFSET, OWN_HALVES
 from .printed_plans import INFERRED, limbed_task
@@ -193,13 +193,11 @@ def follow_h() -> StudyResult:
 def _figure(climbs: list[PlanResult], task: LimbedTask, number: str) -> Figure:
     """The first search that found a plan, as the figure of that number."""
     shown = next((climb for climb in climbs if climb.status == "found"), climbs[0])
-
-    def curve(path: Path) -> None:
-        from ...viewing.plan_curves import draw_history
-
-        draw_history(shown.history, path, goals=[goal.name for goal in task.goals])
-
-    return Figure("fitness", f"Fitness and actions that hold, generation by generation (figure {number}).", curve)
+    return Figure(
+        "fitness",
+        f"Fitness and actions that hold, generation by generation (figure {number}).",
+        lambda path: draw_history(shown.history, path, goals=[goal.name for goal in task.goals]),
+    )
 
 
 def _flat_below(curve: Curve) -> bool:

@@ -3,13 +3,13 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 from ...limb_bench.force import ForceResult, force_entries, run_force
 from ...limb_bench.scenario import ForceTask
 from ...sim.bench_limb import BenchLimb
 from ...units import DEGREE
+from ...viewing.study_lines_plot import Points, draw_panels
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .limb_entries import IDEAL, PLANT, leg_1
@@ -119,19 +119,16 @@ def _row(law: str, case: str, pressed: tuple[float, Pressed]) -> tuple[Value, ..
 
 
 def _figure(results: Mapping[tuple[str, str, float], ForceResult]) -> Figure:
-    def picture(path: Path) -> None:
-        from ...viewing.study_lines_plot import Points, draw_panels
-
-        shown = {
-            law: {
-                f"{law}, {case}": Points(
-                    result.rows[0].run.trace.time, result.rows[0].run.force_into(result.task.angle)
-                )
-                for (one, case, angle), result in results.items()
-                if one == law and math.isclose(angle, ANGLES[1])
-            }
-            for law in (HYBRID, IMPLICIT)
+    shown = {
+        law: {
+            f"{law}, {case}": Points(result.rows[0].run.trace.time, result.rows[0].run.force_into(result.task.angle))
+            for (one, case, angle), result in results.items()
+            if one == law and math.isclose(angle, ANGLES[1])
         }
-        draw_panels(shown, ("time [s]", "true force into the wall [N]"), "20 N on a wall at 90 deg", path)
-
-    return Figure("forces", "True force into a wall at 90 deg: touched, pressed, slid along from 4 to 6 s.", picture)
+        for law in (HYBRID, IMPLICIT)
+    }
+    return Figure(
+        "forces",
+        "True force into a wall at 90 deg: touched, pressed, slid along from 4 to 6 s.",
+        lambda path: draw_panels(shown, ("time [s]", "true force into the wall [N]"), "20 N on a wall at 90 deg", path),
+    )

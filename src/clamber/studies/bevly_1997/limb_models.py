@@ -11,6 +11,7 @@ import numpy as np
 from ...control.chain import Chain
 from ...families.climber.control.limb_chain import chain_of_limb
 from ...families.climber.robot.robot import build_limbed
+from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
 from ...tasks.robots import read_robot
@@ -166,8 +167,6 @@ def _row(d: JointDrive) -> tuple[Value, ...]:
 
 def _draw(drives: Sequence[JointDrive], which: int, path: Path) -> None:
     """Angles (0) or speeds (1)."""
-    from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
-
     panels = [
         JointCurves(
             f"joint {d.number}: {d.name}",
@@ -184,8 +183,6 @@ def _draw(drives: Sequence[JointDrive], which: int, path: Path) -> None:
 
 
 def _draw_differences(drives: Sequence[JointDrive], path: Path) -> None:
-    from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
-
     panels = [
         JointCurves(
             f"joint {d.number}: {d.name}",

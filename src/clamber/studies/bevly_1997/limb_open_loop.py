@@ -1,12 +1,12 @@
 """Figure 3.10: open loop, the torques of J^T F and of K' J^-1 a for a force and for an acceleration along -y."""
 
 import math
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
 from ...limb_bench.open_loop import FIRST, TRANSFORMS, OpenLoopRun, first_turn, run_open_loop, scaled_torques
+from ...limb_bench.pictures.force import Drawn, draw_open_loop, draw_turns
 from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...units import DEGREE
@@ -111,32 +111,28 @@ def compare_transforms() -> StudyResult:
 
 
 def _figures(runs: Runs, renewed: dict[str, OpenLoopRun], turns: Turns) -> tuple[Figure, ...]:
-    def paths(path: Path) -> None:
-        from ...limb_bench.pictures.force import Drawn, draw_open_loop
-
-        columns = {
-            branch: [
-                Drawn("J^T F", runs["Table 3.1", branch, TRANSPOSE, STRONG]),
-                Drawn("J^T F, no friction", runs["none", branch, TRANSPOSE, STRONG], (0, (4, 1.5)), 1.2),
-                Drawn("K' J^-1 a", runs["Table 3.1", branch, SCCT, STRONG]),
-                Drawn("K' J^-1 a, no friction", runs["none", branch, SCCT, STRONG], (0, (4, 1.5)), 1.2),
-                Drawn("the same, renewed with the pose", renewed[branch], (0, (1, 1)), 1.4),
-            ]
-            for branch in BRANCHES
-        }
-        draw_open_loop(columns, SHOWN * MILLI, f"Steady torques for a motion along -y, {STRONG:g} N", path)
-
-    def directions(path: Path) -> None:
-        from ...limb_bench.pictures.force import draw_turns
-
-        draw_turns(ROUND, turns, NAMES, path)
-
+    columns = {
+        branch: [
+            Drawn("J^T F", runs["Table 3.1", branch, TRANSPOSE, STRONG]),
+            Drawn("J^T F, no friction", runs["none", branch, TRANSPOSE, STRONG], (0, (4, 1.5)), 1.2),
+            Drawn("K' J^-1 a", runs["Table 3.1", branch, SCCT, STRONG]),
+            Drawn("K' J^-1 a, no friction", runs["none", branch, SCCT, STRONG], (0, (4, 1.5)), 1.2),
+            Drawn("the same, renewed with the pose", renewed[branch], (0, (1, 1)), 1.4),
+        ]
+        for branch in BRANCHES
+    }
     return (
-        Figure("paths", f"Paths of the tip under steady torques of {STRONG:g} N along -y, and their beginning.", paths),
+        Figure(
+            "paths",
+            f"Paths of the tip under steady torques of {STRONG:g} N along -y, and their beginning.",
+            lambda path: draw_open_loop(
+                columns, SHOWN * MILLI, f"Steady torques for a motion along -y, {STRONG:g} N", path
+            ),
+        ),
         Figure(
             "directions",
             "First acceleration without friction, off the wanted direction, for all directions.",
-            directions,
+            lambda path: draw_turns(ROUND, turns, NAMES, path),
         ),
     )
 

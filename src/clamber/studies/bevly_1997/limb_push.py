@@ -1,7 +1,6 @@
 """Figure 3.14: stiff along y, soft along x, pushed along x and let go; and how stiff y can be made before the tip cycles."""
 
 import math
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -9,6 +8,7 @@ import numpy as np
 from ...control.law_settings import LawSettings
 from ...limb_bench.entries import tip_stiffness
 from ...limb_bench.measures import Entry, Run
+from ...limb_bench.pictures.study import draw_push
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, push_scenario, step_scenario
 from ...sim.bench_limb import BenchLimb
@@ -160,13 +160,8 @@ def push_and_release() -> StudyResult:
         for m in MATCHED
     }
 
-    def times(path: Path) -> None:
-        from ...limb_bench.pictures.study import draw_push
-
-        headings = {"Table 3.1": "friction of Table 3.1", "none": "no Coulomb friction"}
-        shown = {heading: [r for r in kept[key] if r.entry.label in SHOWN] for key, heading in headings.items()}
-        draw_push(shown, CENTRE, (START, RELEASE), path)
-
+    headings = {"Table 3.1": "friction of Table 3.1", "none": "no Coulomb friction"}
+    shown = {heading: [r for r in kept[key] if r.entry.label in SHOWN] for key, heading in headings.items()}
     return StudyResult(
         claim="Figure 3.14, section 3.4.3: very stiff along y and soft along x, pushed along x and released, SCCT keeps y better than "
         "Jacobian transpose control and can be given the higher bandwidth; the limb moves back to its centre.",
@@ -177,7 +172,13 @@ def push_and_release() -> StudyResult:
         ),
         deviations=(*DEVIATIONS, _told_bandwidth(cycling), *PLANT),
         table=Table(COLUMNS, tuple(rows)),
-        figures=(Figure("times", "x and y of the tip, pushed along x with 30 N from 0.5 to 2.5 s; elbow +.", times),),
+        figures=(
+            Figure(
+                "times",
+                "x and y of the tip, pushed along x with 30 N from 0.5 to 2.5 s; elbow +.",
+                lambda path: draw_push(shown, CENTRE, (START, RELEASE), path),
+            ),
+        ),
     )
 
 

@@ -1,7 +1,6 @@
 """Figures 3.11 to 3.13: a step of 2 cm along y, on the simple model and on the limb in MuJoCo, and a circle of 5 cm in 6 s and in 3 s."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -10,6 +9,7 @@ from ...control.chain import Chain
 from ...control.law_settings import LawSettings
 from ...limb_bench.entries import Match
 from ...limb_bench.measures import Entry, Run
+from ...limb_bench.pictures.study import draw_circles, draw_radial_errors, draw_step
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, circle_scenario, step_scenario
 from ...types import Floats
@@ -79,12 +79,7 @@ def step_response(result: str, plant: str) -> StudyResult:
     ratios = {m: min(off[b, transpose(m)] / off[b, SCCT] for b in BRANCHES) for m in (*MATCHED, "none")}
     limb = limbs["elbow +"]
 
-    def paths(path: Path) -> None:
-        from ...limb_bench.pictures.study import draw_step
-
-        shown = {branch: [run for run in runs if run.entry.label != WEIGHTED_RATE] for branch, runs in kept.items()}
-        draw_step(shown, CENTRE, STEP, TITLES[result], path)
-
+    shown = {branch: [run for run in runs if run.entry.label != WEIGHTED_RATE] for branch, runs in kept.items()}
     return StudyResult(
         claim=CLAIMS[result],
         verdict=judged({match: ratios[match] > 1.0 for match in MATCHED}),
@@ -99,7 +94,7 @@ def step_response(result: str, plant: str) -> StudyResult:
         ),
         deviations=(*OWN[result], *GAINS, *COMMON),
         table=Table(STEP_COLUMNS, tuple(rows)),
-        figures=(Figure("paths", CAPTIONS[result], paths),),
+        figures=(Figure("paths", CAPTIONS[result], lambda path: draw_step(shown, CENTRE, STEP, TITLES[result], path)),),
     )
 
 
@@ -236,21 +231,23 @@ def track_circle() -> StudyResult:
 
 
 def _figures(kept: dict[float, list[Run]], rms: Errors) -> tuple[Figure, ...]:
-    def circles(path: Path) -> None:
-        from ...limb_bench.pictures.study import draw_circles
-
-        draw_circles({lap: [r for r in kept[lap] if r.entry.label in SHOWN] for lap in LAPS}, CENTRE, RADIUS, path)
-
-    def errors(path: Path) -> None:
-        from ...limb_bench.pictures.study import draw_radial_errors
-
-        laws = {run.entry.label: run.entry.settings.law for run in kept[LAPS[0]]}
-        cases = [(lap, branch) for lap in LAPS for branch in BRANCHES]
-        draw_radial_errors({label: {case: rms[(*case, label)] for case in cases} for label in laws}, laws, path)
-
+    laws = {run.entry.label: run.entry.settings.law for run in kept[LAPS[0]]}
+    cases = [(lap, branch) for lap in LAPS for branch in BRANCHES]
     return (
-        Figure("paths", "The second lap in 6 s and in 3 s, elbow +.", circles),
-        Figure("radial", "Radial RMS of every law, both times of a lap, both elbow branches.", errors),
+        Figure(
+            "paths",
+            "The second lap in 6 s and in 3 s, elbow +.",
+            lambda path: draw_circles(
+                {lap: [r for r in kept[lap] if r.entry.label in SHOWN] for lap in LAPS}, CENTRE, RADIUS, path
+            ),
+        ),
+        Figure(
+            "radial",
+            "Radial RMS of every law, both times of a lap, both elbow branches.",
+            lambda path: draw_radial_errors(
+                {label: {case: rms[(*case, label)] for case in cases} for label in laws}, laws, path
+            ),
+        ),
     )
 
 

@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 from itertools import product
-from pathlib import Path
 from typing import Final
 
 from ...families.climber.planning.task import LimbedTask
@@ -11,6 +10,7 @@ from ...planning.genetic.planner import plan_genetic
 from ...planning.problem.problems import plan_family, pose_problem
 from ...types import Ints
 from ...units import INCH
+from ...viewing.pictures import draw_route
 from ..result import Compared, Figure, StudyResult, Table, Value
 from .printed_plans import INFERRED, limbed_task, replay_printed
 
@@ -109,12 +109,6 @@ def rotation_is_not_needed() -> StudyResult:
     checked = result.check()
     hanging = plan_genetic(limbed_task("modified-ladder", (WITHOUT_TURNS, OWN_HALVES, HELD_OFFSET)), threads=1)
     replay = plan_family(free).problem(free).replay(result.plan.codes(free))
-
-    def route(path: Path) -> None:
-        from ...viewing.pictures import draw_route
-
-        draw_route(free, replay, path)
-
     shortest = next(row for row in rows if row[0] == reading((NO_HANGS,)) and row[1] == "strict")
     return StudyResult(
         claim="Section 2.5.2, read literally: no plan for the modified ladder does without rotation, whatever pegs the legs use.",
@@ -136,7 +130,13 @@ def rotation_is_not_needed() -> StudyResult:
         table=Table(
             ("rules", "support", "without rotation", "shortest plan", "stances", "highest body [in]"), tuple(rows)
         ),
-        figures=(Figure("route", "A plan of ours without rotation: a leg crosses to the other column.", route),),
+        figures=(
+            Figure(
+                "route",
+                "A plan of ours without rotation: a leg crosses to the other column.",
+                lambda path: draw_route(free, replay, path),
+            ),
+        ),
     )
 
 

@@ -1,6 +1,5 @@
 """Figure 2.14: the five-module gait 191, 392, 291, 300, 3 repeated up the ladder."""
 
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -10,6 +9,7 @@ from ...families.climber.planning.task import LimbedTask
 from ...planning.problem.problem import Replay
 from ...planning.problem.problems import plan_family
 from ...units import INCH, OZ_IN
+from ...viewing.pictures import draw_route
 from ..result import Compared, Figure, StudyResult, Table, Value
 from .printed_plans import INFERRED, limbed_task, replay_printed
 
@@ -51,12 +51,6 @@ def climb_with_gait() -> StudyResult:
     power = float(replay.stances["power"][1:].mean())
     hand = replay_printed("ladder-hand")
     at_hand = float(hand.replay.stances["power"][1:].mean())
-
-    def route(path: Path) -> None:
-        from ...viewing.pictures import draw_route
-
-        draw_route(task, replay, path)
-
     torques = float(replay.stances["torque"].max()) / OZ_IN
     return StudyResult(
         claim="Figure 2.14: the gait 191, 392, 291, 300, 3 climbs the ladder; it is not the only one, but one with low torques.",
@@ -82,5 +76,11 @@ def climb_with_gait() -> StudyResult:
             ("support", "step [in]", "actions to the goal", "highest body [in]", "largest torque [oz-in]", "end"),
             tuple(rows),
         ),
-        figures=(Figure("route", "The gait with 6 in steps, repeated to the top of the ladder.", route),),
+        figures=(
+            Figure(
+                "route",
+                "The gait with 6 in steps, repeated to the top of the ladder.",
+                lambda path: draw_route(task, replay, path),
+            ),
+        ),
     )

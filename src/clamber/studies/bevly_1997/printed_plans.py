@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 from ...families.climber.planning.task import LimbedTask, limbed
@@ -14,6 +13,8 @@ from ...planning.problem.problems import plan_family
 from ...planning.problem.verdict import Verdict as PlanVerdict
 from ...tasks import load_task
 from ...units import DEGREE, INCH, OZ_IN
+from ...viewing.pictures import draw_route, draw_stance
+from ...viewing.plan_curves import draw_torques
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 
 H_START: Final = ("start.y=6.2in",)
@@ -204,19 +205,13 @@ def _steps(done: Replayed) -> Table:
 
 
 def _figures(done: Replayed) -> tuple[Figure, ...]:
-    def route(path: Path) -> None:
-        from ...viewing.pictures import draw_route
-
-        draw_route(done.task, done.replay, path)
-
-    def torques(path: Path) -> None:
-        from ...viewing.plan_curves import draw_torques
-
-        draw_torques(done.task, {done.opened.plan.planner: done.replay}, path)
-
     return (
-        Figure("route", "The plan from start to end.", route),
-        Figure("torques", "Largest joint torque of every step.", torques),
+        Figure("route", "The plan from start to end.", lambda path: draw_route(done.task, done.replay, path)),
+        Figure(
+            "torques",
+            "Largest joint torque of every step.",
+            lambda path: draw_torques(done.task, {done.opened.plan.planner: done.replay}, path),
+        ),
     )
 
 
@@ -234,17 +229,6 @@ def compare_h_torques() -> StudyResult:
     limited = limbed_task("h", (f"motor.torque_limit={LIMIT:g}oz-in",))
     ours = plan_genetic(limited, threads=1)
     checked = ours.check()
-
-    def curves(path: Path) -> None:
-        from ...viewing.plan_curves import draw_torques
-
-        draw_torques(hand.task, {"by hand (D.2)": hand.replay, "by the planner (2.4)": theirs.replay}, path)
-
-    def worst(path: Path) -> None:
-        from ...viewing.pictures import draw_stance
-
-        draw_stance(hand.task, hand.replay, at, path)
-
     low, high = ABOUT_1900
     held = by_planner < LIMIT and low <= by_hand < high and checked.ok and ours.status == "found"
     return StudyResult(
@@ -268,8 +252,18 @@ def compare_h_torques() -> StudyResult:
             'Our own plan comes from the profile "default", polished for length, with 1500 oz-in as the hard limit; hangs are allowed.',
         ),
         figures=(
-            Figure("torques", "Largest joint torque of every step of the two printed plans (figure 2.18).", curves),
-            Figure("worst", "The hand-made plan where it needs most torque (figure 2.17).", worst),
+            Figure(
+                "torques",
+                "Largest joint torque of every step of the two printed plans (figure 2.18).",
+                lambda path: draw_torques(
+                    hand.task, {"by hand (D.2)": hand.replay, "by the planner (2.4)": theirs.replay}, path
+                ),
+            ),
+            Figure(
+                "worst",
+                "The hand-made plan where it needs most torque (figure 2.17).",
+                lambda path: draw_stance(hand.task, hand.replay, at, path),
+            ),
         ),
     )
 

@@ -3,7 +3,6 @@
 import os
 from collections import Counter
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -22,6 +21,7 @@ from ...jobs import LocalProcesses
 from ...planning.problem.plan import Plan
 from ...trials.trial_runs import ERROR, run_trials
 from ...types import Floats
+from ...viewing.study_lines_plot import Points, draw_panels
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_climb import gait_plan
@@ -136,21 +136,16 @@ def _row(name: str, trials: list[ClimbTrial]) -> tuple[Value, ...]:
 
 
 def _figure(told: Mapping[str, list[ClimbTrial]], off: Mapping[str, Floats]) -> Figure:
-    def picture(path: Path) -> None:
-        from ...viewing.study_lines_plot import Points, draw_panels
-
-        panels: dict[str, dict[str, Points]] = {}
-        for name, trials in told.items():
-            far = {seed: float(value) * MILLI for seed, value in zip(SEEDS, off[name], strict=True)}
-            for word, done in (("climbed", True), ("not climbed", False)):
-                ended = [one for one in trials if one.done == done]
-                at = [far[one.seed] for one in ended]
-                panels.setdefault(name, {})[word] = Points(at, [float(one.step) for one in ended], marked=True)
-        draw_panels(
-            panels,
-            ("farthest peg from the map [mm]", "last step"),
-            "Two rungs on uneven terrain",
-            path,
-        )
-
-    return Figure("steps", "How far each climb came, by how far its pegs were off the map.", picture)
+    panels: dict[str, dict[str, Points]] = {}
+    for name, trials in told.items():
+        far = {seed: float(value) * MILLI for seed, value in zip(SEEDS, off[name], strict=True)}
+        for word, done in (("climbed", True), ("not climbed", False)):
+            ended = [one for one in trials if one.done == done]
+            at = [far[one.seed] for one in ended]
+            panels.setdefault(name, {})[word] = Points(at, [float(one.step) for one in ended], marked=True)
+    axes = ("farthest peg from the map [mm]", "last step")
+    return Figure(
+        "steps",
+        "How far each climb came, by how far its pegs were off the map.",
+        lambda path: draw_panels(panels, axes, "Two rungs on uneven terrain", path),
+    )

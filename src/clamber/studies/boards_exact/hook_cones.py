@@ -1,11 +1,11 @@
 """Hooks that can only pull: what that costs in length, and the narrowest cone in which a board can still be climbed."""
 
 from dataclasses import asdict
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from ...families.climber.pictures.charts import draw_cones
 from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.printed_plans import limbed_task
@@ -104,12 +104,6 @@ def narrow_cones() -> StudyResult:
         if wide > narrow
     )
     proved = ordered and all(row[4] == "valid" for row in rows)
-
-    def curve(path: Path) -> None:
-        from ...families.climber.pictures.charts import draw_cones
-
-        draw_cones({board: {at: proof.length for at, proof in proofs.items()} for board, proofs in tried.items()}, path)
-
     return StudyResult(
         claim="The narrowest cone of the hooks in which each board can still be climbed: "
         "a plan there, none in one a quarter of a degree narrower.",
@@ -128,7 +122,14 @@ def narrow_cones() -> StudyResult:
             ),
             tuple(rows),
         ),
-        figures=(Figure("lengths", "Shortest plan against the cone of the hooks; left of a bar there is no plan.", curve),),
+        figures=(
+            Figure(
+                "lengths", "Shortest plan against the cone of the hooks; left of a bar there is no plan.",
+                lambda path: draw_cones(
+                    {board: {at: proof.length for at, proof in proofs.items()} for board, proofs in tried.items()}, path
+                ),
+            ),
+        ),
     )  # fmt: skip
 
 

@@ -1,13 +1,13 @@
 """The thesis's remark that pegs must be 18 to 20 in apart across and about 6 in up: both distances of the ladder varied."""
 
 from dataclasses import replace
-from pathlib import Path
 from typing import Final
 
 from ...planning.axes import range_axis, read_mark
 from ...planning.sweep import NO_START, SUCCESS, Sweep, run_sweep
 from ...types import Json
 from ...units import INCH
+from ...viewing.sweep_plot import draw_sweep
 from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
 from .proofs import CORES, MODEL, NEVER_HANGS, TOLD, prove_all
@@ -46,17 +46,6 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
     others = {place for place in climbed if place[1] == RUNG} - stated
     best = min(point.length for point in swept.points if point.length is not None)
     shortest = [point.values for point in swept.points if point.length == best]
-
-    def field(path: Path) -> None:
-        from ...viewing.sweep_plot import draw_sweep
-
-        draw_sweep(swept, path)
-
-    def field_of_heights(path: Path) -> None:
-        from ...viewing.sweep_plot import draw_sweep
-
-        draw_sweep(lifted, path)
-
     return StudyResult(
         claim="The thesis says that pegs must be 18 to 20 in apart across and about 6 in up for the robot to climb. "
         "On ladders of other widths and rungs: which can be climbed, and on which is the climb to 60 in shortest?",
@@ -86,9 +75,10 @@ def vary_spacing_over(across: str, up: str) -> StudyResult:
         ),
         table=_table(swept, lifted),
         figures=(
-            Figure("field", "Actions of the shortest plan by distance of the pegs across and up; dashed: what the thesis states.", field),
-            Figure("heights", "The same with higher and lower starts "
-                   "where the level one is not allowed (rings: none is).", field_of_heights),
+            Figure("field", "Actions of the shortest plan by distance of the pegs across and up; dashed: what the thesis states.",
+                   lambda path: draw_sweep(swept, path)),
+            Figure("heights", "The same with higher and lower starts where the level one is not allowed (rings: none is).",
+                   lambda path: draw_sweep(lifted, path)),
         ),
     )  # fmt: skip
 

@@ -3,7 +3,6 @@
 import os
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
@@ -17,6 +16,7 @@ from ...planning.problem.problem import Replay
 from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ...units import OZ_IN
+from ...viewing.pictures import draw_route
 from ..bevly_1997.printed_plans import H_START, limbed_task, replay_printed
 from ..result import Compared, Figure, StudyResult, Table, Value
 
@@ -209,13 +209,7 @@ def prove_optima() -> StudyResult:
             (board, short.length, short.stances, *_loads(gentle), easy.length, *_loads(easy), printed.length, what)
         )
     proved = all(proof.feasible and proof.valid for proof in proofs)
-
-    def route(path: Path) -> None:
-        from ...viewing.pictures import draw_route
-
-        shown = by_board["h"][1]
-        draw_route(shown.load(), shown.replay(), path)
-
+    shown = by_board["h"][1]
     return StudyResult(
         claim="The shortest plan of every board, proved by exact search and replayed without it; "
         "of the shortest, the one that loads the joints least; and of those that load them least, the shortest.",
@@ -240,7 +234,10 @@ def prove_optima() -> StudyResult:
             ),
             tuple(rows),
         ),
-        figures=(Figure("h-route", "H: of the shortest plans the one of least torque.", route),),
+        figures=(
+            Figure("h-route", "H: of the shortest plans the one of least torque.",
+                   lambda path: draw_route(shown.load(), shown.replay(), path)),
+        ),
     )  # fmt: skip
 
 

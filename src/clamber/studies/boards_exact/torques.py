@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Final, TypeAlias
 
 import numpy as np
@@ -14,6 +13,7 @@ from ...planning.problem.problems import pose_problem
 from ...planning.problem.verdict import check_plan
 from ...types import Json
 from ...units import DEGREE, INCH, OZ_IN
+from ...viewing.plan_curves import draw_front
 from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
 from .proofs import BOARDS, MODEL, NEVER_HANGS, TOLD, Proof, proof_of, prove, prove_all, run_all
@@ -165,12 +165,6 @@ def trade_length_for_torque() -> StudyResult:
     above, below = (prove(BOARD, (*MODEL, limit(easiest.torque, nudge))) for nudge in (NUDGE, -NUDGE))
     replayed = all(row[3] == "valid" for row in rows)
     held = above.feasible and not below.feasible
-
-    def curve(path: Path) -> None:
-        from ...viewing.plan_curves import draw_front
-
-        draw_front(front, path)
-
     return StudyResult(
         claim="On H a longer plan can do with weaker motors. These are all plans that no other beats in both length and torque, "
         "and the smallest torque limit under which H can be climbed is that of the last of them.",
@@ -196,7 +190,13 @@ def trade_length_for_torque() -> StudyResult:
             "level in the middle of two columns. The result least-torque frees the start: on H the climb itself needs no less.",
         ),
         table=Table(("length [actions]", "largest torque [oz-in]", "energy [J]", "replay"), rows),
-        figures=(Figure("front", "The complete front of H: what more actions give in torque.", curve),),
+        figures=(
+            Figure(
+                "front",
+                "The complete front of H: what more actions give in torque.",
+                lambda path: draw_front(front, path),
+            ),
+        ),
     )
 
 

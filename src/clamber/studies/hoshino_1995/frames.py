@@ -1,11 +1,17 @@
 """Figures 4 and 5: where the frames can be to each other, and the widest ditch by their angle and the direction of crossing."""
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from ...families.walker.pictures.mechanism_plots import (
+    draw_areas,
+    draw_crossing,
+    draw_ditch_curves,
+    draw_ditch_maps,
+    draw_regions,
+)
 from ...families.walker.robot import TwoFrames
 from ...families.walker.robot.ditch import Footing, ditch_map
 from ...families.walker.robot.ditch_plan import Crossing, cross_ditch
@@ -99,21 +105,15 @@ def _table(frames: TwoFrames) -> Table:
 
 
 def _pictures_of_regions(frames: TwoFrames, curve: Floats) -> tuple[Figure, ...]:
-    def picture(path: Path) -> None:
-        from ...families.walker.pictures.mechanism_plots import draw_regions
-
-        draw_regions(frames, SHOWN, path)
-
-    def growth(path: Path) -> None:
-        from ...families.walker.pictures.mechanism_plots import draw_areas
-
-        names = ("strokes alone", "part around the centre", "short of a singular pose", _guard(frames))
-        draw_areas(ANGLES, dict(zip(names, curve.T, strict=True)), path)
-
+    names = ("strokes alone", "part around the centre", "short of a singular pose", _guard(frames))
     places = "Places of the Y-frame's origin in the Delta-frame at eight angles; the dashed circle is singular."
     return (
-        Figure("regions", places, picture),
-        Figure("areas", "Area of the region by the angle between the frames.", growth),
+        Figure("regions", places, lambda path: draw_regions(frames, SHOWN, path)),
+        Figure(
+            "areas",
+            "Area of the region by the angle between the frames.",
+            lambda path: draw_areas(ANGLES, dict(zip(names, curve.T, strict=True)), path),
+        ),
     )
 
 
@@ -241,26 +241,23 @@ def _compare_crossing(plan: Crossing) -> tuple[Compared, ...]:
 
 
 def _figures(ditches: Ditches) -> tuple[Figure, ...]:
-    def maps(path: Path) -> None:
-        from ...families.walker.pictures.mechanism_plots import draw_ditch_maps
-
-        shown = {"straight": ditches.straight[:, :MAPPED], "with sidesteps": ditches.aside[:, :MAPPED]}
-        draw_ditch_maps(ANGLES, DIRECTIONS[:MAPPED], shown, path)
-
-    def curves(path: Path) -> None:
-        from ...families.walker.pictures.mechanism_plots import draw_ditch_curves
-
-        draw_ditch_curves(DIRECTIONS, {theta: ditches.straight[ANGLES.index(theta)] for theta in DRAWN}, path)
-
-    def crossing(path: Path) -> None:
-        from ...families.walker.pictures.mechanism_plots import draw_crossing
-
-        draw_crossing(ditches.crossing, path)
-
+    shown = {"straight": ditches.straight[:, :MAPPED], "with sidesteps": ditches.aside[:, :MAPPED]}
     return (
-        Figure("maps", "Widest ditch [mm] by the angle of the frames and the direction of crossing.", maps),
-        Figure("curves", "Widest ditch crossed straight, by direction, at five angles of the frames.", curves),
         Figure(
-            "crossing", "A ditch of 200 mm crossed after a pivot; every picture is the stance after a slide.", crossing
+            "maps",
+            "Widest ditch [mm] by the angle of the frames and the direction of crossing.",
+            lambda path: draw_ditch_maps(ANGLES, DIRECTIONS[:MAPPED], shown, path),
+        ),
+        Figure(
+            "curves",
+            "Widest ditch crossed straight, by direction, at five angles of the frames.",
+            lambda path: draw_ditch_curves(
+                DIRECTIONS, {theta: ditches.straight[ANGLES.index(theta)] for theta in DRAWN}, path
+            ),
+        ),
+        Figure(
+            "crossing",
+            "A ditch of 200 mm crossed after a pivot; every picture is the stance after a slide.",
+            lambda path: draw_crossing(ditches.crossing, path),
         ),
     )

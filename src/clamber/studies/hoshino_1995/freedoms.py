@@ -1,7 +1,6 @@
 """Section 6: the tool moved by 5 to 10 degrees of freedom (figure 10), and the manipulability by the form of equation 19 and by k_p."""
 
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -12,6 +11,7 @@ from ...families.walker.control.cooperative.limits import freedom_names
 from ...families.walker.control.cooperative.planted_feet import PlantedFeet
 from ...families.walker.control.cooperative.settings import Cooperation, Form, own_speeds
 from ...families.walker.control.cooperative.tool_chain import POSE
+from ...families.walker.pictures.tool_plots import Motion, draw_freedoms, draw_gains, draw_motions
 from ...types import Floats
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from .tool_runs import BALANCED, CHOSEN, DOFS, GAINS, RUNS, START, TOOL_SPEEDS, ToolRun, go, random_case
@@ -136,19 +136,14 @@ def _table(motions: Motions) -> Table:
 
 
 def _figure(motions: Motions) -> Figure:
-    def draw(path: Path) -> None:
-        from ...families.walker.pictures.tool_plots import Motion, draw_motions
-
-        shown = [(motions.free[dof], motions.free[dof].title) for dof in SHOWN]
-        shown.insert(2, (motions.faster[DRAWN_SPEED], f"5 dof, $T_q$ of z {DRAWN_SPEED:g} m/s"))
-        pictured = [Motion(title, run.footing, run.q, run.places) for run, title in shown]
-        draw_motions(pictured, shown[0][0].time, path)
-
+    shown = [(motions.free[dof], motions.free[dof].title) for dof in SHOWN]
+    shown.insert(2, (motions.faster[DRAWN_SPEED], f"5 dof, $T_q$ of z {DRAWN_SPEED:g} m/s"))
+    pictured = [Motion(title, run.footing, run.q, run.places) for run, title in shown]
     caption = (
         f"Start (faint), middle and end of the motions from the side, k_p = {GAIN:g}, and the arm's joints over time in the colours of the "
         "titles; 5 dof with the height at 0.02 m/s (dashed) lies on 4 dof."
     )
-    return Figure("motions", caption, draw)
+    return Figure("motions", caption, lambda path: draw_motions(pictured, shown[0][0].time, path))
 
 
 def _with_height(speed: float) -> Floats:
@@ -250,12 +245,6 @@ def vary_gain() -> StudyResult:
     rows: list[tuple[Value, ...]] = [
         (seed, dof, *map(float, values[seed])) for dof, values in means.items() for seed in range(RUNS)
     ]
-
-    def courses(path: Path) -> None:
-        from ...families.walker.pictures.tool_plots import draw_gains
-
-        draw_gains(usual[0.0].time, {gain: run.measure for gain, run in usual.items()}, means, path)
-
     return StudyResult(
         claim="Figure 11, section 6.3: as k_p gets larger (0, 1, 5), the manipulability measure gets larger.",
         verdict="holds" if ordered[10] == RUNS else "differs",
@@ -290,7 +279,11 @@ def vary_gain() -> StudyResult:
         table=Table(("seed", "dof", *(f"mean V, k_p = {gain:g}" for gain in GAINS)), tuple(rows)),
         figures=(
             Figure(
-                "courses", "V along the usual way with 10 dof; mean V of random ways, over that with k_p = 0.", courses
+                "courses",
+                "V along the usual way with 10 dof; mean V of random ways, over that with k_p = 0.",
+                lambda path: draw_gains(
+                    usual[0.0].time, {gain: run.measure for gain, run in usual.items()}, means, path
+                ),
             ),
         ),
     )
@@ -339,12 +332,6 @@ def count_freedoms() -> StudyResult:
     rows: list[tuple[Value, ...]] = [
         (gain, seed, *map(float, means[g, seed])) for g, gain in enumerate(GAINS) for seed in range(RUNS)
     ]
-
-    def spread(path: Path) -> None:
-        from ...families.walker.pictures.tool_plots import draw_freedoms
-
-        draw_freedoms(means, DOFS, GAINS, path)
-
     return StudyResult(
         claim="Section 6.2: generally, as the degrees of freedom get more, the manipulability measure gets larger.",
         verdict="holds" if in_place == RUNS and min(grows.values()) > RUNS // 2 else "differs",
@@ -369,5 +356,11 @@ def count_freedoms() -> StudyResult:
         ),
         seeds=range(RUNS),
         table=Table(("k_p", "seed", *(f"mean V, {dof} dof" for dof in DOFS)), tuple(rows)),
-        figures=(Figure("spread", "Mean V of each random way by degrees of freedom, one panel for each k_p.", spread),),
+        figures=(
+            Figure(
+                "spread",
+                "Mean V of each random way by degrees of freedom, one panel for each k_p.",
+                lambda path: draw_freedoms(means, DOFS, GAINS, path),
+            ),
+        ),
     )

@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final, Literal
 
 import numpy as np
@@ -11,6 +10,7 @@ from ...families.walker.control.gait import Y
 from ...families.walker.control.posture import inclines_of_tilt, slope_of, tilt_of
 from ...families.walker.execution import motions
 from ...families.walker.execution.walk_trace import PHASES, TracedWalker, WalkTrace
+from ...families.walker.pictures.walk_plots import Tilts, draw_directions, draw_inclining, draw_levelling
 from ...families.walker.planning import load_walk
 from ...families.walker.sim.walker_flaws import Inclinometers, WalkerFlaws
 from ...families.walker.sim.walker_plant import WalkerSim
@@ -136,14 +136,6 @@ def compare_inclinations() -> StudyResult:
     true = {legs: float(run.true_errors().max()) / DEGREE for legs, run in runs.items()}
     slowest = {legs: float((run.arrives - run.begins).max()) for legs, run in runs.items()}
     holds = max(*read.values(), *true.values()) <= PRINTED
-
-    def motions(path: Path) -> None:
-        from ...families.walker.pictures.walk_plots import draw_inclining
-
-        draw_inclining(
-            {f"on {_word(legs)} legs": _course(run) for legs, run in runs.items()}, within=PRINTED, path=path
-        )
-
     return StudyResult(
         claim="Figure 7, section 4.2: legs that move at speeds proportional to their displacements incline the upper surface, and the "
         "error between the wanted inclination and what the inclinometers read is brought to 0.1 deg.",
@@ -185,7 +177,9 @@ def compare_inclinations() -> StudyResult:
             Figure(
                 "inclines",
                 "How far the plate's axes rise, wanted (black) and as read, and the error; grey where legs move.",
-                motions,
+                lambda path: draw_inclining(
+            {f"on {_word(legs)} legs": _course(run) for legs, run in runs.items()}, within=PRINTED, path=path
+        ),
             ),
         ),
     )  # fmt: skip
@@ -201,9 +195,7 @@ def _rows(legs: int, run: Inclining) -> list[tuple[Value, ...]]:
     return [(legs, *want, float(took), float(a) / DEGREE, float(b) / DEGREE) for want, took, a, b in columns]
 
 
-def _course(run: Inclining):  # type: ignore[no-untyped-def]
-    from ...families.walker.pictures.walk_plots import Tilts
-
+def _course(run: Inclining) -> Tilts:
     moves = list(zip(run.begins, run.arrives, strict=True))
     return Tilts(run.trace.time, run.wanted / DEGREE, run.trace.inclines / DEGREE, run.true_inclines() / DEGREE, moves)
 
@@ -229,12 +221,6 @@ def walk_level() -> StudyResult:
         for kept in (level, tilted)
         for name, run in kept.items()
     ]
-
-    def courses(path: Path) -> None:
-        from ...families.walker.pictures.walk_plots import draw_levelling
-
-        draw_levelling(level, tilted, within=LEVEL, path=path)
-
     return StudyResult(
         claim="Figure 8, section 5: a walk on a slope of 10 deg while the upper surface is kept level; on the whole it could be.",
         verdict="holds" if ends and rests <= LEVEL else "differs",
@@ -263,7 +249,8 @@ def walk_level() -> StudyResult:
             tuple(rows),
         ),
         figures=(
-            Figure("courses", "Tilt and margin of balance along the way, level; the margin if the plate lies as the slope.", courses),
+            Figure("courses", "Tilt and margin of balance along the way, level; the margin if the plate lies as the slope.",
+                   lambda path: draw_levelling(level, tilted, within=LEVEL, path=path)),
         ),
     )  # fmt: skip
 
@@ -323,12 +310,6 @@ def compare_directions() -> StudyResult:
     tangents = float(np.abs(np.sin(printed - found[..., 0])).max())
     downhill = _between(printed, found[..., 0])
     share = float((downhill > 0.5 * math.pi).mean())
-
-    def directions(path: Path) -> None:
-        from ...families.walker.pictures.walk_plots import draw_directions
-
-        draw_directions(tilts, ours[..., 1] / DEGREE, ours[..., 0], printed, path)
-
     return StudyResult(
         claim="Figure 9, section 4.2, equations 3 to 7: the direction eta in which the upper surface inclines most has tan eta = "
         "-tan gamma / sin beta; eta and the angle xi there follow from beta and gamma, and the other way.",
@@ -359,7 +340,7 @@ def compare_directions() -> StudyResult:
             Figure(
                 "directions",
                 "Which way is up in the plate, its x to the right and y up, by its tilt: truly, and by the arctan of equation 6.",
-                directions,
+                lambda path: draw_directions(tilts, ours[..., 1] / DEGREE, ours[..., 0], printed, path),
             ),
         ),
     )  # fmt: skip

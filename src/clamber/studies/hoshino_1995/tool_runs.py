@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
@@ -12,6 +11,7 @@ from ...families.walker.control.cooperative.cooperator import Cooperator
 from ...families.walker.control.cooperative.freedoms import SUPPORT, freedoms_of, weights_of
 from ...families.walker.control.cooperative.planted_feet import SUPPORT_WORDS, PlantedFeet
 from ...families.walker.control.cooperative.settings import Cooperation, Form, own_speeds
+from ...families.walker.pictures.tool_plots import draw_follow
 from ...families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
 from ...families.walker.trials.cooperative.tool_path import ToolPath
 from ...types import Floats
@@ -180,12 +180,6 @@ def follow_in_dynamics() -> StudyResult:
         for title, runs in (("motion", moved), ("contact dynamics", real))
         for dof, run in runs.items()
     )
-
-    def course(path: Path) -> None:
-        from ...families.walker.pictures.tool_plots import draw_follow
-
-        draw_follow(real[10], path)
-
     return StudyResult(
         claim="Sections 1 and 7: with the prototype, too, the trajectory control by equation 19 succeeds.",
         verdict=judge_following({dof: (run.off_end, _most(run)) for dof, run in real.items()}),
@@ -215,7 +209,13 @@ def follow_in_dynamics() -> StudyResult:
         table=Table(
             ("dof", "robot", "off the target [mm]", "off its place, most [mm]", "root mean square [mm]", "end"), rows
         ),
-        figures=(Figure("course", "The way in contact dynamics with ten degrees of freedom.", course),),
+        figures=(
+            Figure(
+                "course",
+                "The way in contact dynamics with ten degrees of freedom.",
+                lambda path: draw_follow(real[10], path),
+            ),
+        ),
     )
 
 

@@ -3,17 +3,18 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Final
 
 import numpy as np
 
+from ...families.walker.pictures.walk_plots import draw_paths
 from ...families.walker.robot import TwoFrames
 from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import stride
 from ...families.walker.trials.max_setting import Most, Tried, find_most
 from ...families.walker.trials.run_walk import WalkRun
 from ...units import DEGREE
+from ...viewing.pictures import draw_run
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import SIMULATED
 from .walker import MM, hoshino, known_noise, run_changed
@@ -78,12 +79,6 @@ def walk_everywhere(directions: tuple[int, ...] = DIRECTIONS) -> StudyResult:
         )
         for direction, walk in walks.items()
     )
-
-    def paths(path: Path) -> None:
-        from ...families.walker.pictures.walk_plots import draw_paths
-
-        draw_paths({f"{direction} deg": run for direction, run in runs.items()}, {}, path)
-
     return StudyResult(
         claim="Sections 2, 3 and 7: the robot can walk in all directions.",
         verdict=judge_strayed(list(walks.values())),
@@ -121,7 +116,13 @@ def walk_everywhere(directions: tuple[int, ...] = DIRECTIONS) -> StudyResult:
             ),
             rows,
         ),
-        figures=(Figure("paths", "Ways of the Delta-frame's origin from above, as they truly were.", paths),),
+        figures=(
+            Figure(
+                "paths",
+                "Ways of the Delta-frame's origin from above, as they truly were.",
+                lambda path: draw_paths({f"{direction} deg": run for direction, run in runs.items()}, {}, path),
+            ),
+        ),
     )
 
 
@@ -150,12 +151,7 @@ def turn_anywhere(centres: tuple[tuple[float, float], ...] = CENTRES) -> StudyRe
         for (x, y), walk in walks.items()
     )
 
-    def paths(path: Path) -> None:
-        from ...families.walker.pictures.walk_plots import draw_paths
-
-        names = {centre: f"about {centre[0]:g}, {centre[1]:g} m" for centre in runs}
-        draw_paths({names[centre]: run for centre, run in runs.items()}, {names[c]: c for c in runs}, path)
-
+    names = {centre: f"about {centre[0]:g}, {centre[1]:g} m" for centre in runs}
     return StudyResult(
         claim="Section 3.2: the robot can turn about an arbitrary point; on the spot the radius is smallest. Section 7: rotational walking "
         "was performed.",
@@ -194,7 +190,13 @@ def turn_anywhere(centres: tuple[tuple[float, float], ...] = CENTRES) -> StudyRe
             rows,
         ),
         figures=(
-            Figure("paths", "Ways of the Delta-frame's origin from above, as they truly were, and the points.", paths),
+            Figure(
+                "paths",
+                "Ways of the Delta-frame's origin from above, as they truly were, and the points.",
+                lambda path: draw_paths(
+                    {names[centre]: run for centre, run in runs.items()}, {names[c]: c for c in runs}, path
+                ),
+            ),
         ),
     )
 
@@ -258,12 +260,6 @@ def pass_steps() -> StudyResult:
     ]
     rows += [(*_row(tried), None, None) for tried in most.tried]
     shown = runs[SEEDS[0]]
-
-    def course(path: Path) -> None:
-        from ...viewing.pictures import draw_run
-
-        draw_run(shown, path)
-
     return StudyResult(
         claim="Section 7: the robot has a high performance of passing over obstacles with steps of different levels.",
         verdict=judge_steps(list(walks.values())),
@@ -290,7 +286,13 @@ def pass_steps() -> StudyResult:
             ("walk", "passed in balance", "least margin [mm]", "largest tilt [deg]", "why not", "kicks", "slides"),
             tuple(rows),
         ),
-        figures=(Figure("course", "The walk over steps of 15, 30 and 45 mm, from the side and from above.", course),),
+        figures=(
+            Figure(
+                "course",
+                "The walk over steps of 15, 30 and 45 mm, from the side and from above.",
+                lambda path: draw_run(shown, path),
+            ),
+        ),
     )
 
 
