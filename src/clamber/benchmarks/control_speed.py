@@ -15,20 +15,20 @@ from ..control.controller import Controller, still_aim
 from ..control.law_settings import LAWS, LawSettings
 from ..errors import how_to_install
 from ..execution.closed_loop import close_loop
-from ..families.climber.control.limb_chain import chain_of_limb, closed_branches
-from ..families.climber.robot.robot import build_limbed
 from ..families.walker.robot import TwoFrames, WalkerRobot
 from ..families.walker.robot.arcs import COLUMNS, MOST_ARCS, ROOM, outline, ray
 from ..families.walker.robot.curves import CURVE_NUMBERS, MOST_CURVES, reach_curves
 from ..families.walker.robot.ditch import Footing, ditch_map
 from ..families.walker.robot.two_frames import follow_branch
 from ..families.walker.robot.workspace import stride, workspace
+from ..limb_bench.bench_limb import bench_limb
+from ..limb_bench.scenario import rest_at
+from ..sim.bench_limb import BenchLimb
 from ..sim.limb_flaws import LimbFlaws, Push
 from ..sim.limb_model import limb_spec
 from ..sim.mujoco_limb import MujocoLimb
 from ..sim.ode_limb import OdeLimb
 from ..sim.raw_steps import RawSteps
-from ..tasks.robots import read_robot
 from ..trials.measured import NOTHING, Row, Say, keep_quiet, round_times
 from ..types import Floats, Records
 
@@ -111,41 +111,13 @@ LIMBS: Final = 256
 """Limbs of a batch in closed loop."""
 SECONDS: Final = 1.0
 """Of closed loop in one timing."""
-START: Final = (0.22, 0.0)
-"""Of the tip, port frame [m]."""
-STEP: Final = 0.02
-"""[m]."""
-FORCED: Final = frozenset({"hybrid", "implicit-force"})
-"""Laws that are timed with a force along x."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class TimedLimb:
-    """The limb that controllers are timed on."""
-
-    chain: Chain
-    gears: Floats
-    """Motor turns per joint turn, shape (n,)."""
-    q0: Floats
-    """Joint angles at the start, shape (n,) [rad]."""
-
-
-def timed_limb() -> TimedLimb:
-    """LIBRA's first limb with its tip at `START`."""
-    robot = build_limbed(read_robot("libra"))
-    spec = robot.limbs[0]
-    gears = np.array((spec.shoulder.gear, spec.elbow.gear))
-    return TimedLimb(chain_of_limb(robot, robot.limb_names[0]), gears, np.array(closed_branches(spec, *START)[0]))
-
-
-def step_aims(rate: float, seconds: float) -> Records:
-    """The reference of a 2 cm step downwards, tick by tick; `rate` is the control's [Hz]."""
-    return np.stack([still_aim((START[0], START[1] - STEP))] * round(seconds * rate))
+STEPPED: Final = (0.22, -0.02)
+"""Where a step of 2 cm leads the tip of LIBRA's first limb, port frame [m]."""
 
 
 def law_named(law: str) -> LawSettings:
-    """The law as it is timed."""
-    return LawSettings(law=law, kp=100.0, forced=("x",) if law in FORCED else ())
+    """The law as it is timed, those for forces with one along x."""
+    return LawSettings(law=law, kp=100.0, forced=("x",) if law in ("hybrid", "implicit-force") else ())
 
 
 def laws_timed() -> dict[str, LawSettings]:
@@ -154,7 +126,7 @@ def laws_timed() -> dict[str, LawSettings]:
     return {**{law: law_named(law) for law in LAWS}, "scct with every feed-forward": whole}
 
 
-def random_states(limb: TimedLimb, shape: tuple[int, ...]) -> Floats:
+def random_states(limb: BenchLimb, shape: tuple[int, ...]) -> Floats:
     """Joint angles and speeds about the limb's start, shape (*shape, 2, n)."""
     rng = np.random.default_rng(0)
     out = rng.uniform(-0.3, 0.3, (*shape, 2, limb.chain.n))
@@ -171,8 +143,8 @@ def _tick_often(controller: Controller, aims: Records, states: Floats, wrenches:
 def tick_rows(*, rounds: int = ROUNDS, ticks: int = TICKS, batch: int = BATCH, say: Say = keep_quiet) -> list[Row]:
     """One tick of every law, called from Python: on one limb, and per limb of a batch, on one core."""
     say("one tick of every law")
-    limb, laws = timed_limb(), laws_timed()
-    aims = still_aim((0.22, -0.02))
+    limb, laws = bench_limb(), laws_timed()
+    aims = still_aim(STEPPED)
     rows = []
     for size, aim, label in (
         (1, "< 5", "one limb"),
@@ -196,8 +168,8 @@ def _solve_often(tick: Tick, states: Floats, place: Floats, ticks: int) -> None:
 
 def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_quiet) -> list[Row]:
     """The motion of one tick by mink and by pink over our tick of resolved rate control, which has torques besides."""
-    limb = timed_limb()
-    states, place = random_states(limb, (STATES, 1)), np.array((0.22, -0.02, 0.0))
+    limb = bench_limb()
+    states, place = random_states(limb, (STATES, 1)), np.array((*STEPPED, 0.0))
     rows = []
     for name, make in IK_PEERS.items():
         if not installed(name):
@@ -250,12 +222,12 @@ def loop_rows(
     say: Say = keep_quiet,
 ) -> list[Row]:
     """Closed-loop simulation, trace and all, over `mj_step` of the same model with the same torques; the 2 cm step, 200 Hz."""
-    limb = timed_limb()
+    limb = bench_limb()
     rows = []
     for loop in loops_timed() if loops is None else loops:
         say(f"closed loop, {loop.label}")
         flaws = loop.flaws
-        aims = step_aims(flaws.control_rate, seconds if loop.batch == 1 else seconds / 4)
+        aims = rest_at(STEPPED, round((seconds if loop.batch == 1 else seconds / 4) * flaws.control_rate))
         controller = Controller(limb.chain, law_named("scct"), period=flaws.period, batch=loop.batch)
         plant = MujocoLimb(limb.chain, flaws, gears=limb.gears, batch=loop.batch)
 
@@ -274,8 +246,8 @@ def loop_rows(
 
 def ode_row(*, rounds: int = ROUNDS, seconds: float = SECONDS) -> Row:
     """What a closed loop on the ODE takes of real time."""
-    limb, flaws = timed_limb(), LimbFlaws()
-    aims = step_aims(flaws.control_rate, seconds)
+    limb, flaws = bench_limb(), LimbFlaws()
+    aims = rest_at(STEPPED, round(seconds * flaws.control_rate))
     controller, plant = Controller(limb.chain, law_named("scct"), period=flaws.period), OdeLimb(limb.chain, flaws)
 
     def closed() -> None:
@@ -291,12 +263,11 @@ def control_rows(*, say: Say = keep_quiet) -> list[Row]:
     return [*tick_rows(say=say), *peer_rows(say=say), *loop_rows(say=say)]
 
 
-REGION_ROUNDS: Final = 15
 REPEATS: Final = 200
 """Of a piece of work in one timing."""
 
 
-def region_rows(robot: WalkerRobot, *, rounds: int = REGION_ROUNDS, say: Say = keep_quiet) -> list[Row]:
+def region_rows(robot: WalkerRobot, *, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
     """Times of what a planner or controller asks of the mechanism, at many angles."""
     say("regions of the two frames")
     frames = TwoFrames.of(robot.mechanism)

@@ -84,9 +84,7 @@ def force_settings(controller: str, compensation: str, gains: ForceGains, task: 
     Raises:
         UnknownNameError: If there is no such controller or compensation.
     """
-    for kind, name, known in (("controller", controller, CONTROLLERS), ("compensation", compensation, COMPENSATIONS)):
-        if name not in known:
-            raise UnknownNameError(kind, name, known)
+    _check_names([controller], [compensation])
     common: dict[str, Any] = {"angle": task.task_angle, **_against_friction(controller, compensation, gains)}
     if controller == "hybrid":
         return LawSettings(law="hybrid", kp=200.0, kd=10.0, forced=("x",), force_damping=gains.damping, **common)
@@ -95,6 +93,16 @@ def force_settings(controller: str, compensation: str, gains: ForceGains, task: 
         return LawSettings(law="implicit-force", kp=200.0, kd=10.0, forced=("x",), environment=stiffness, **common)
     yielding = (gains.admittance_damping, STIFF_ALONG)
     return LawSettings(law="admittance", kp=400.0, kd=20.0, admittance_kd=yielding, **common)
+
+
+def _check_names(controllers: Sequence[str], compensations: Sequence[str]) -> None:
+    for kind, names, known in (
+        ("controller", controllers, CONTROLLERS),
+        ("compensation", compensations, COMPENSATIONS),
+    ):
+        for name in names:
+            if name not in known:
+                raise UnknownNameError(kind, name, known)
 
 
 def _against_friction(controller: str, compensation: str, gains: ForceGains) -> dict[str, Any]:
@@ -124,13 +132,7 @@ def force_entries(
         UnknownNameError: If there is no such controller or compensation.
     """
     gains = force_gains(limb, task, flaws)
-    for kind, names, known in (
-        ("controller", controllers, CONTROLLERS),
-        ("compensation", compensations, COMPENSATIONS),
-    ):
-        for name in names:
-            if name not in known:
-                raise UnknownNameError(kind, name, known)
+    _check_names(controllers, compensations)
     if compensations:
         pairs = [(law, way) for law in controllers or CONTROLLERS for way in compensations]
     else:

@@ -20,7 +20,8 @@ from ...types import Floats
 from ...units import INCH
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
-from .body_entries import OURS, OWN, PLANT, SCCT, TABLE_4_1
+from .body_entries import OURS, OWN, PLANT, TABLE_4_1
+from .limb_entries import SCCT
 from .nominal_gait import GAIT
 from .printed_plans import limbed_task
 

@@ -14,7 +14,8 @@ from ...types import Floats
 from ...viewing.study_lines_plot import Points, draw_panels
 from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
-from .body_entries import EARLIER, PEG_ERROR, PLANT, SCCT, TABLE_4_1
+from .body_entries import EARLIER, PEG_ERROR, PLANT, TABLE_4_1
+from .limb_entries import SCCT
 
 SEEDS: Final = 12
 STAND: Final = 3.0

@@ -14,7 +14,8 @@ from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI
-from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1
+from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1
+from .limb_entries import SCCT
 
 GAINS: Final = tuple(float(100.0 * 2 ** (k / 2)) for k in range(-4, 15))
 """Kpx that are tried, a root of two apart."""

@@ -1,22 +1,19 @@
 """What chapter 4 compares on the body: SCCT, J^T held as stiffly in every sense, joint PD and the scheme of 4.4.5."""
 
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Final
 
 from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.trials.body_bench import BodyEntry
-from ...families.climber.trials.body_entries import COORDINATED, BodyMatch, read_gains
+from ...families.climber.trials.body_entries import COORDINATED, read_gains
 from ...families.climber.trials.body_stand import BodyStand
-from ..result import Verdict
+from ...limb_bench.entries import MATCHES
+from .limb_entries import SCCT, transpose
 
-SCCT: Final = "SCCT"
 OWN: Final = "our own control"
 BIASED: Final = f"{SCCT}, alpha {BodyGains().alpha:g}"
 JOINT_PD: Final = "joint PD"
 EARLIER: Final = "scheme of 4.4.5"
-MATCHED: Final[tuple[BodyMatch, ...]] = ("yy", "mean", "diagonal")
-"""The senses of "as stiffly" that decide."""
 TABLE_4_1: Final = BodyGains(
     kp=(100.0, 50.0, 10.0), kd=(5.0, 2.5, 0.5), mapping="thesis", limit="thesis", alpha=0.0, weight_fed=0.95
 )
@@ -36,17 +33,11 @@ PLANT: Final = (
 )
 
 
-def transpose(match: BodyMatch) -> str:
-    """Label of J^T matched to SCCT in a sense."""
-    return f"J^T, {match}"
-
-
 def scct_and_transposes(stand: BodyStand, reference: BodyGains) -> list[BodyEntry]:
     """SCCT as `reference`, J^T in every sense as stiff at the stand's start, and with the same numbers."""
-    senses: tuple[BodyMatch, ...] = (*MATCHED, "none")
     return [
         BodyEntry(SCCT, reference),
-        *(BodyEntry(transpose(m), read_gains("jacobian-transpose", reference, stand, m)) for m in senses),
+        *(BodyEntry(transpose(m), read_gains("jacobian-transpose", reference, stand, m)) for m in MATCHES),
     ]
 
 
@@ -56,9 +47,3 @@ def rivals(stand: BodyStand, reference: BodyGains) -> list[BodyEntry]:
         BodyEntry(JOINT_PD, read_gains("leg-by-leg:joint-pd", reference, stand, "mean")),
         BodyEntry(EARLIER, read_gains(COORDINATED, reference, stand, "diagonal")),
     ]
-
-
-def judged(better: Mapping[BodyMatch, bool]) -> Verdict:
-    """holds: SCCT is better in every sense of the same stiffness; differs: in none; open: the sense decides."""
-    won = [better[match] for match in MATCHED]
-    return "holds" if all(won) else "open" if any(won) else "differs"

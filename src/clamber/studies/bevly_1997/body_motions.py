@@ -7,22 +7,11 @@ from ...families.climber.execution.body_gains import BodyGains
 from ...families.climber.pictures.body_plots import draw_body_circles, draw_body_times
 from ...families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, measure_body, run_bodies
 from ...families.climber.trials.body_stand import BodyScenario, bench_flaws, circle, ladder_stand, push_up
+from ...limb_bench.entries import Match
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI
-from .body_entries import (
-    BIASED,
-    MATCHED,
-    OUR_ALPHA,
-    OURS,
-    OWN,
-    PLANT,
-    SCCT,
-    TABLE_4_1,
-    judged,
-    rivals,
-    scct_and_transposes,
-    transpose,
-)
+from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1, rivals, scct_and_transposes
+from .limb_entries import MATCHED, SCCT, judged, transpose
 
 RADIUS: Final = 0.05
 """[m]."""
@@ -129,8 +118,8 @@ def push_body_up() -> StudyResult:
                 one.rest * MILLI, hooks,
             ))  # fmt: skip
 
-    def better(match: str) -> bool:
-        ours, theirs = told["nominal", SCCT], told["nominal", f"J^T, {match}"]
+    def better(match: Match) -> bool:
+        ours, theirs = told["nominal", SCCT], told["nominal", transpose(match)]
         return ours.x_max < theirs.x_max and ours.behind_rms < theirs.behind_rms
 
     shown = {f"{plant} plant": [run for run in runs if run.entry.label != BIASED] for plant, runs in kept.items()}

@@ -21,7 +21,8 @@ from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder
 from ...sim.limb_flaws import LimbFlaws
 from ..result import Compared, Figure, StudyResult, Table, Value
 from . import MILLI
-from .body_entries import BIASED, EARLIER, JOINT_PD, OUR_ALPHA, OURS, OWN, PLANT, SCCT, TABLE_4_1, rivals
+from .body_entries import BIASED, EARLIER, JOINT_PD, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1, rivals
+from .limb_entries import SCCT
 
 SLOW: Final = 8.0
 """Size of the push along each axis that tells the stiffness [N]."""

@@ -8,13 +8,11 @@ from typing import Final
 
 import numpy as np
 
-from ...control.chain import Chain
-from ...families.climber.control.limb_chain import chain_of_limb
-from ...families.climber.robot.robot import build_limbed
+from ...limb_bench.bench_limb import load_geared
 from ...limb_bench.pictures.study import JointCurves, draw_joint_curves
+from ...sim.bench_limb import BenchLimb
 from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
-from ...tasks.robots import read_robot
 from ...types import Floats
 from ...units import DEGREE
 from ..result import Compared, Figure, StudyResult, Table, Value
@@ -75,10 +73,10 @@ def drive_joint(number: int) -> JointDrive:
     Args:
         number: As in Table 3.1, from 1.
     """
-    robot = build_limbed(read_robot("libra"))
-    limb, joint = JOINTS[number - 1]
-    chain = chain_of_limb(robot, robot.limb_names[limb])
-    spec = robot.limbs[limb]
+    which, joint = JOINTS[number - 1]
+    robot, make_limb = load_geared("libra")
+    limb = make_limb(robot, str(which + 1), upright=False)
+    chain = limb.chain
     record = chain.joints[joint]
     q = np.zeros(chain.n)
     links = float(chain.inertia(q)[joint, joint] / record["rotor"]) - 1.0
@@ -87,21 +85,20 @@ def drive_joint(number: int) -> JointDrive:
     swing = SWING * math.hypot(float(record["damping"]), float(record["rotor"]) * turn)
     time = np.arange(round(SECONDS * IDEAL.control_rate)) / IDEAL.control_rate
     torque = float(record["friction"] + MEAN * record["damping"]) + swing * np.sin(turn * time)
-    gears = np.array((spec.shoulder.gear, spec.elbow.gear))
-    simple = _follow("ode", chain, q, joint, torque, IDEAL, gears)
-    in_mujoco = _follow("mujoco", chain, q, joint, torque, IDEAL, gears)
-    worn = _follow("mujoco", chain, q, joint, torque, WORN, gears)
+    simple = _follow("ode", limb, q, joint, torque, IDEAL)
+    in_mujoco = _follow("mujoco", limb, q, joint, torque, IDEAL)
+    worn = _follow("mujoco", limb, q, joint, torque, WORN)
     curves = {SIMPLE: simple[:, joint], LIMB: in_mujoco[:, joint], LIKE_ROBOT: worn[:, joint]}
     partner = float(np.abs(in_mujoco[0, 1 - joint]).max())
     return JointDrive(number, chain.joint_names[joint], links, time, torque, curves, partner)
 
 
-def _follow(plant: str, chain: Chain, q: Floats, joint: int, torque: Floats, flaws: LimbFlaws, gears: Floats) -> Floats:
+def _follow(plant: str, limb: BenchLimb, q: Floats, joint: int, torque: Floats, flaws: LimbFlaws) -> Floats:
     """Angles from the start and speeds of both joints by the encoders, shape (2, n, ticks)."""
-    stage = plant_maker(plant)(chain, flaws, gears=gears)
+    stage = plant_maker(plant)(limb.chain, flaws, gears=limb.gears)
     stage.reset(q)
-    out = np.empty((2, chain.n, len(torque)))
-    command = np.zeros((1, chain.n))
+    out = np.empty((2, limb.chain.n, len(torque)))
+    command = np.zeros((1, limb.chain.n))
     for k, value in enumerate(torque):
         out[:, :, k] = stage.sense().states[0]
         command[0, joint] = value
