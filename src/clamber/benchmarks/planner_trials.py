@@ -2,10 +2,8 @@
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from statistics import median
-from threading import Event
 from typing import Any, Final
 
 from ..files import Document
@@ -15,7 +13,6 @@ from ..planning.genetic.planner import plan_genetic
 from ..planning.genetic.profile import Profile, load_profile
 from ..planning.learning import learn_macros
 from ..planning.problem.problems import pose_problem
-from ..planning.progress import ProgressEvent
 from ..specs import build_spec
 from ..tasks import Task, load_task, task_from_document
 from ..trials.measured import NOTHING, Crew, Row, Say, keep_quiet, median_or_nothing
@@ -53,94 +50,68 @@ class Trials:
 
 
 def run_cases(
-    cases: Mapping[str, tuple[Task, Profile]], seeds: Iterable[int], crew: Crew | None = None
+    cases: Mapping[str, tuple[Task, Profile]],
+    seeds: Iterable[int],
+    crew: Crew | None = None,
+    *,
+    max_evaluations: int = EVALUATIONS,
+    filters: bool = True,
+    macros: Sequence[Macro] = (),
 ) -> dict[str, Trials]:
-    """Plan every case with every seed, all of them one batch.
+    """Plan every case with every seed, each on one thread, all of them one batch.
 
     Args:
         cases: Label -> task and profile.
         seeds: The same for every case.
         crew: Who runs them; None: local processes, one a core.
+        max_evaluations: Budget of one trial.
+        filters: Whether the inventory is filtered.
+        macros: Learned modules that it has, too.
 
     Raises:
         ClamberError: As `Crew.answers`.
     """
     crew = crew or Crew(executor=LocalProcesses(os.cpu_count() or 1))
     chosen = tuple(seeds)
+    common: Json = {"evaluations": max_evaluations, "filters": filters, "macros": [asdict(macro) for macro in macros]}
     items: list[Json] = [
-        {"document": task.document, "profile": asdict(profile), "seed": seed}
+        {"document": task.document, "profile": asdict(profile), "seed": seed} | common
         for task, profile in cases.values()
         for seed in chosen
     ]
     title = f"{len(chosen)} seeds each of {', '.join(list(cases)[:3])} ... ({len(cases)} cases)"
-    answers = crew.answers(run_trial, items, {"items": items, "evaluations": EVALUATIONS}, title)
+    answers = crew.answers(run_trial, items, {"items": items}, title)
     told = [tuple(answer["told"]) for answer in answers]
     rows = [told[k : k + len(chosen)] for k in range(0, len(told), len(chosen))]
     return {label: Trials(*zip(*row, strict=True)) for label, row in zip(cases, rows, strict=True)}
+
+
+def run_trials(task: Task, profile: Profile, seeds: Iterable[int], **options: Any) -> Trials:
+    """Plan one task with every seed; options as in `run_cases`."""
+    return run_cases({task.name: (task, profile)}, seeds, **options)[task.name]
 
 
 def run_trial(item: Json) -> Json:
     """One seed of one case; runs in a worker.
 
     Args:
-        item: `document` of the task, `profile` as plain data, `seed`.
+        item: `document` of the task, `profile` and `macros` as plain data, `seed`, `evaluations`, `filters`.
 
     Returns:
         `told`: the three entries of `Trials`.
     """
-    profile = build_spec(Profile, Document("profile", item["profile"]))
     result = plan_genetic(
         task_from_document(item["document"]),
         seed=item["seed"],
-        profile=profile,
-        max_evaluations=EVALUATIONS,
+        profile=build_spec(Profile, Document("profile", item["profile"])),
+        max_evaluations=item["evaluations"],
         threads=1,
+        filters=item["filters"],
+        macros=[build_spec(Macro, Document("macro", macro)) for macro in item["macros"]],
     )
     if result.status != "found":
         return {"told": [None, None, None]}
     return {"told": [result.first_evaluations, result.first_length, result.length]}
-
-
-def run_trials(
-    task: Task,
-    profile: Profile,
-    seeds: Iterable[int],
-    *,
-    max_evaluations: int = EVALUATIONS,
-    filters: bool = True,
-    macros: Sequence[Macro] = (),
-) -> Trials:
-    """Plan a task with each seed, one thread per plan and as many plans at once as there are cores."""
-    stopped = Event()
-
-    def look(_: ProgressEvent) -> None:
-        if stopped.is_set():
-            raise KeyboardInterrupt  # which only the main thread gets by itself
-
-    def trial(seed: int) -> tuple[int | None, int | None, int | None]:
-        result = plan_genetic(
-            task,
-            seed=seed,
-            profile=profile,
-            max_evaluations=max_evaluations,
-            threads=1,
-            filters=filters,
-            macros=macros,
-            progress=look,
-        )
-        if result.status != "found":
-            return None, None, None
-        return result.first_evaluations, result.first_length, result.length
-
-    with ThreadPoolExecutor(os.cpu_count() or 1, thread_name_prefix="trial") as pool:
-        try:
-            told = list(pool.map(trial, seeds))
-        except KeyboardInterrupt:
-            stopped.set()
-            pool.shutdown(cancel_futures=True)
-            raise
-    evaluations, first_lengths, lengths = zip(*told, strict=True)
-    return Trials(evaluations, first_lengths, lengths)
 
 
 SUCCESS_SEEDS: Final = range(20)
