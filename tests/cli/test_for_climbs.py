@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 import pytest
 
-from clamber.cli.run.options import RunOptions
+from clamber.cli.run.command import RunOptions
 from clamber.cli.trials.command import TrialsOptions
 from clamber.family import family_named
 from clamber.tasks import load_task

@@ -10,7 +10,7 @@ import pytest
 
 import clamber as api
 from clamber.cli.plan.options import PlanOptions
-from clamber.cli.run.options import RunOptions
+from clamber.cli.run.command import RunOptions
 from clamber.planning.planners import USUAL_PLANNER, plan_task
 from clamber.viewing.browser.work_panel import PLANNER
 

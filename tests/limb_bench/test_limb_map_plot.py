@@ -6,9 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from clamber.cli.limb.options import LawWords, NominalLimbWords
+from clamber.cli.limb.sweep import CommandWords, make_bench
 from clamber.limb_bench.bench_limb import bench_limb
 from clamber.limb_bench.pictures.sweep import rims
-from clamber.limb_bench.sweep import BenchTexts, Boundary, LimbSweep, make_bench
+from clamber.limb_bench.sweep import Boundary, LimbSweep
 from clamber.limb_bench.sweep_point import Cell
 from clamber.limb_bench.tune import Edge, Tuned, Tuning
 from clamber.planning.axes import range_axis
@@ -33,7 +35,7 @@ def made_sweep(*, two: bool, divided: bool = True) -> LimbSweep:
         for label, at in (("a", 350.0), ("b", 250.0))
     )
     return LimbSweep(
-        bench=make_bench(BenchTexts(kind="circle")),
+        bench=make_bench(CommandWords(), LawWords(), NominalLimbWords()),
         axes=tuple(axes),
         labels=("a", "b"),
         points=points,

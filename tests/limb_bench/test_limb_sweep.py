@@ -1,15 +1,18 @@
 """Sweeps of laws: each point a run, boundaries between a stable and an unstable run, mistakes named."""
 
 import csv
-from dataclasses import asdict, replace
+from dataclasses import asdict, fields, replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from clamber.cli.limb.options import LawWords, NominalLimbWords
+from clamber.cli.limb.sweep import CommandWords, ScenarioChoice, make_bench
 from clamber.errors import ClamberError, UnknownNameError
 from clamber.limb_bench.measures import measure
 from clamber.limb_bench.runner import Crew, run_contest
-from clamber.limb_bench.sweep import BenchTexts, LimbSweep, make_bench, run_limb_sweep
+from clamber.limb_bench.sweep import LimbSweep, run_limb_sweep
 from clamber.limb_bench.sweep_point import Bench, Cell, find_boundary, run_point, try_laws
 from clamber.planning.axes import range_axis
 from clamber.sim.limb_flaws import LimbFlaws
@@ -20,8 +23,13 @@ TOO_STIFF = {"kp": "6000"}
 
 
 def short_bench(**changes: object) -> Bench:
-    words = {"kind": "step", "kp": 100.0, "kd": 4.0, "laws": ("scct",)} | changes
-    return make_bench(BenchTexts(**words))  # type: ignore[arg-type]
+    said: dict[str, Any] = {"scenario": ScenarioChoice.step, "kp": 100.0, "kd": 4.0, "controllers": ["scct"]} | changes
+    holders: list[Any] = [CommandWords, LawWords, NominalLimbWords]
+    words = [
+        holder(**{each.name: said.pop(each.name) for each in fields(holder) if each.name in said}) for holder in holders
+    ]
+    assert not said
+    return make_bench(*words)
 
 
 def told(bench: Bench) -> dict[str, object]:
@@ -84,7 +92,7 @@ def test_the_winner_is_the_smallest_measure_of_the_steady_laws() -> None:
 
 
 def test_a_point_travels_as_plain_data() -> None:
-    bench = short_bench(kind="push")
+    bench = short_bench(scenario=ScenarioChoice.push)
     (label,) = out = run_point({"bench": told(bench), "varied": STIFF})
     assert label == "scct"
     assert Cell(**out[label]) == try_laws(bench, STIFF)["scct"]
@@ -94,10 +102,9 @@ def test_a_point_travels_as_plain_data() -> None:
     ("words", "error", "names"),
     [
         ({"measure": "radial_rms"}, UnknownNameError, "radial_rms"),
-        ({"kind": "circle", "measure": "across_max"}, UnknownNameError, "across_max"),
+        ({"scenario": ScenarioChoice.circle, "measure": "across_max"}, UnknownNameError, "across_max"),
         ({"measure": "beauty"}, UnknownNameError, "beauty"),
-        ({"flaws": "none"}, UnknownNameError, "none"),
-        ({"settings": ("backlash=-2deg",)}, PlantError, "backlash"),
+        ({"settings": ["backlash=-2deg"]}, PlantError, "backlash"),
         ({"reference": "scct:kp=100/50", "kp": None}, ClamberError, "one number"),
     ],
 )
@@ -123,7 +130,7 @@ def test_what_cannot_vary_is_named_before_anything_runs(vary: str, names: str) -
 
 @pytest.mark.long
 def test_a_sweep_finds_its_boundary_on_any_number_of_workers_and_resumes(tmp_path: Path) -> None:
-    bench = short_bench(laws=("scct", "jacobian-transpose"))
+    bench = short_bench(controllers=["scct", "jacobian-transpose"])
     axes = [range_axis("backlash=0deg..2deg:2"), range_axis("kp=1000..6000:3")]
     alone = run_limb_sweep(bench, axes, Crew(store=tmp_path / "points.db"))
     together = run_limb_sweep(bench, axes, Crew(workers=3))
@@ -145,4 +152,4 @@ def test_a_sweep_finds_its_boundary_on_any_number_of_workers_and_resumes(tmp_pat
 
 
 def test_flaws_of_a_bench_are_those_of_the_plant() -> None:
-    assert LimbFlaws(**short_bench(settings=("payload=300g",)).flaws).payload == pytest.approx(0.3)
+    assert LimbFlaws(**short_bench(settings=["payload=300g"]).flaws).payload == pytest.approx(0.3)

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from ..interrupts import answer, passed_on
 from ..terminal.options import AsJson, Output, Ray, Resume, Store, Workers
-from ..terminal.output import check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout, tell_written
 from ..terminal.worker_options import Batch, EndsLine, check_resume, executor_of, keeping
 from ..viewing.text_table import plain_table
 
@@ -161,8 +161,7 @@ def print_contest(console: Console, contest: Any, output: Path | None) -> None:
         console.print(line, style="bold red", soft_wrap=True)
     if not wrong:
         console.print("no answer contradicts a proof")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
+    tell_written(console, output)
 
 
 def _print_rows(console: Console, rows: "Iterable[Row]") -> None:

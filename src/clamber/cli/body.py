@@ -10,9 +10,9 @@ from rich.console import Console
 
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, FlawsChoice, Output, Quiet, takes_options
-from ..terminal.output import print_json, stderr, stdout
+from ..terminal.output import check_output, print_json, stderr, stdout, tell_written
 from ..terminal.worker_options import EndsLine
-from .limb.options import MatchChoice, check_output, show_table, tell_written
+from .limb.options import MatchChoice, show_table
 
 if TYPE_CHECKING:
     from ..families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, PushTrial

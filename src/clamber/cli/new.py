@@ -16,7 +16,6 @@ from ..terminal.output import check_new, print_json, print_new, stderr
 from .commands import read_place
 
 if TYPE_CHECKING:
-    from ..types import Json
     from .new_files import NewBoard
 
 new = typer.Typer(help="Write a file to start from: robot, board or task.", no_args_is_help=True)
@@ -181,41 +180,30 @@ def board(*, words: BoardOptions) -> None:
     board_file = words.board_file
     for path in (words.output, board_file):
         check_new(path, words.force)
-    from .new_files import points_data, random_data
-    from .starters import board_starter, board_text
-
-    data: Json
-    if words.random:
-        data = random_data(
-            words.holds, words.density, words.width, words.least_gap, words.seed, board_file, listed=words.listed
-        )
-    elif words.csv is not None or words.pixels is not None:
-        data = points_data(board_file, words.csv, words.unit, words.pixels, words.scale, words.origin, words.radius)
-    else:
-        data = board_starter(board_file, words.like).data
-    text = None if words.random else board_text(data, board_file)
-    _write_board(data, text, board_file, words.output if words.task else None, words.overrides or [], words.as_json)
-
-
-def _write_board(
-    data: "Json", text: str | None, board_file: Path, task_file: Path | None, overrides: list[str], as_json: bool
-) -> None:
     from ..files import write_atomically
     from ..toml_text import toml_text
-    from .new_files import describe_board, task_data
+    from .new_files import describe_board, points_data, random_data, task_data
+    from .starters import board_starter, board_text
 
-    written = {"board": str(board_file)} | ({} if task_file is None else {"task": str(task_file)})
+    if words.random:
+        data = random_data(words)
+    elif words.csv is not None or words.pixels is not None:
+        data = points_data(words)
+    else:
+        data = board_starter(board_file, words.like).data
+    text = toml_text(data) if words.random else board_text(data, board_file)
+    written = {"board": str(board_file)} | ({"task": str(words.output)} if words.task else {})
     made = describe_board(data, written)
     following = f"clamber check {board_file}"
-    if task_file is not None:
-        with LiveLine(stderr(), quiet=as_json, doing="finding the start"):
-            climb = task_data(data, str(board_file), task_file, overrides)
+    if words.task:
+        with LiveLine(stderr(), quiet=words.as_json, doing="finding the start"):
+            climb = task_data(data, str(board_file), words.output, words.overrides or [])
         comment = "From the lowest stance that the rules allow to the top of the board beside it."
-        write_atomically(task_file, toml_text(climb, comment))
-        following = f"clamber show {task_file}; clamber plan {task_file} --planner auto"
-    write_atomically(board_file, toml_text(data) if text is None else text)
+        write_atomically(words.output, toml_text(climb, comment))
+        following = f"clamber show {words.output}; clamber plan {words.output} --planner auto"
+    write_atomically(board_file, text)
     apart = "" if made.gap_m is None else f", at least {made.gap_m:.4g} m apart"
-    _tell(made, f"{made.holds} holds on {made.width_m:.4g} x {made.height_m:.4g} m{apart}", following, as_json)
+    _tell(made, f"{made.holds} holds on {made.width_m:.4g} x {made.height_m:.4g} m{apart}", following, words.as_json)
 
 
 @new.command("task")

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from ..errors import SpecError, UnitError
 from ..families.climber.world.board import Board, build_board
@@ -17,65 +17,52 @@ from ..terminal.output import name_of
 from ..types import Json
 from ..units import parse_quantity
 
+if TYPE_CHECKING:
+    from .new import BoardOptions
+
 COMMAND: Final = "clamber new board"
 
 
-def random_data(
-    holds: int,
-    density: str,
-    width: str | None,
-    least_gap: str | None,
-    seed: int,
-    path: Path,
-    *,
-    listed: bool,
-) -> Json:
+def random_data(words: "BoardOptions") -> Json:
     """The document of a random board.
 
     Raises:
         SpecError: If an option is none that it may be; the error names it.
     """
     data = random_board_data(
-        holds,
-        quantity("--density", density, "number per area", "holds/m^2"),
-        seed,
-        width=None if width is None else quantity("--width", width, "length"),
-        least_gap=None if least_gap is None else quantity("--least-gap", least_gap, "length"),
-        name=name_of(path),
+        words.holds,
+        quantity("--density", words.density, "number per area", "holds/m^2"),
+        words.seed,
+        width=None if words.width is None else quantity("--width", words.width, "length"),
+        least_gap=None if words.least_gap is None else quantity("--least-gap", words.least_gap, "length"),
+        name=name_of(words.board_file),
     )
-    if not listed:
+    if not words.listed:
         return data
     places = _board(data).positions().tolist()
     rows = [{"number": i, "x": f"{x!r} m", "y": f"{y!r} m"} for i, (x, y) in enumerate(places, start=1)]
     return {**{key: value for key, value in data.items() if key != "random"}, "holds": rows}
 
 
-def points_data(
-    path: Path,
-    csv: Path | None,
-    unit: str | None,
-    pixels: Path | None,
-    scale: str | None,
-    origin: str | None,
-    radius: str | None,
-) -> Json:
+def points_data(words: "BoardOptions") -> Json:
     """The document of a board from a table of lengths, or from one of pixels; what is wrong with a hold is told by its line.
 
     Raises:
         FileError: If a line is no hold.
         SpecError: If an option is none that it may be; the error names it.
     """
-    size = DEFAULT_RADIUS if radius is None else f"{quantity('--radius', radius, 'length'):.9g} m"
-    if csv is not None:
-        source, document = csv, read_csv_board(csv, unit, size)
+    size = DEFAULT_RADIUS if words.radius is None else f"{quantity('--radius', words.radius, 'length'):.9g} m"
+    if words.csv is not None:
+        source, document = words.csv, read_csv_board(words.csv, words.unit, size)
     else:
-        assert pixels is not None and scale is not None
-        metres = quantity("--scale", scale, "length")
+        assert words.pixels is not None and words.scale is not None
+        metres = quantity("--scale", words.scale, "length")
         if not metres > 0.0:
-            raise SpecError(COMMAND, "--scale", scale, "must be more than 0 m")
-        source, document = pixels, read_pixel_board(pixels, metres, None if origin is None else _pixel(origin), size)
+            raise SpecError(COMMAND, "--scale", words.scale, "must be more than 0 m")
+        origin = None if words.origin is None else _pixel(words.origin)
+        source, document = words.pixels, read_pixel_board(words.pixels, metres, origin, size)
     build_points_board(document, source)
-    return document.data | {"name": name_of(path)}
+    return document.data | {"name": name_of(words.board_file)}
 
 
 def _pixel(text: str) -> tuple[float, float]:

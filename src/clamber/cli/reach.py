@@ -12,7 +12,7 @@ from rich.table import Table
 from ..shown_units import ShownUnits, units_of
 from ..terminal.live_line import LiveLine
 from ..terminal.options import Overrides, TaskName, Told, takes_options
-from ..terminal.output import check_writable, print_json, stderr, stdout
+from ..terminal.output import check_output, print_json, stderr, stdout, tell_written
 from ..viewing.text_table import plain_table
 
 if TYPE_CHECKING:
@@ -38,30 +38,23 @@ def reach(
 ) -> None:
     """Map every pose and hold that the robot can get to, and what it costs to be there (picture, or .csv of the poses)."""
     output = told.output
-    check_writable(output)
-    pictured = output is not None and output.suffix.lower() != ".csv"
-    if pictured and output is not None:
-        from ..viewing.output import CANVASES, check_suffix
-
-        check_suffix(output, (".csv", *CANVASES))
+    check_output(output, ".csv")
     from ..tasks import load_task
 
     loaded = load_task(task, overrides or ())
-    from ..planning.reach.reach import choose_layer
+    from ..planning.reach.reach import choose_layer, find_reach
 
     shown = choose_layer(loaded, layer)
-    from ..planning.reach.reach import find_reach
-
     with FloodLine(stderr(), quiet=told.quiet, doing="seeing every stance") as line:
         result = find_reach(
             loaded, hangs=hangs, max_stances=stances, seconds=seconds, threads=threads, progress=line.update
         )
-    if pictured and output is not None:
+    if output is not None and output.suffix.lower() == ".csv":
+        result.save_table(output)
+    elif output is not None:
         from ..viewing.reach_plot import draw_reach
 
         draw_reach(result, shown, output)
-    elif output is not None:
-        result.save_table(output)
     if told.as_json:
         print_json(result)
     else:
@@ -99,8 +92,7 @@ def _print_reach(console: Console, reach: "Reach", layer: str, output: Path | No
     note = " (the task allows hangs; they were left out)" if reach.without_hangs else ""
     console.print(f"holds for: {reach.model}{note}")
     console.print(f"{reach.checks} actions judged, {reach.steps} actions to the farthest stance, {reach.seconds:.1f} s")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
+    tell_written(console, output)
 
 
 def _layer_table(reach: "Reach", layer: str) -> Table:

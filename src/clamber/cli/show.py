@@ -10,7 +10,7 @@ from ..json_form import Count, Key
 from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Output, Overrides, Quiet, takes_options
-from ..terminal.output import check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout, tell_written
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ def show(
     if words.as_json:
         print_json(drawn)
     else:
-        stdout().print(f"written to {drawn.written}", soft_wrap=True)
+        tell_written(stdout(), drawn.written)
 
 
 def _drawn(thing: str, words: ShowOptions, path: Path, line: LiveLine) -> Drawn:

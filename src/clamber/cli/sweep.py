@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 
 from ..terminal.options import Overrides, PlannerName, TaskName, takes_options
-from ..terminal.output import print_json, stdout
+from ..terminal.output import check_output, print_json, stdout, tell_written
 from ..terminal.worker_options import WorkerOptions
 from ..viewing.text_table import plain_table
 
@@ -48,11 +48,7 @@ def sweep(
 ) -> None:
     """Plan at every point of a range: where a plan exists, how long the shortest is, how hard it loads the joints."""
     words.check()
-    pictured = words.output is not None and words.output.suffix.lower() != ".csv"
-    if pictured and words.output is not None:
-        from ..viewing.output import CANVASES, check_suffix
-
-        check_suffix(words.output, (".csv", *CANVASES))
+    check_output(words.output, ".csv")
     from ..planning.axes import check_axes, range_axis, read_mark, values_axis
 
     axes = [*map(range_axis, varied.vary or ()), *map(values_axis, varied.values or ())]
@@ -76,12 +72,12 @@ def sweep(
             resume=words.resume,
             progress=batch.line.update,
         )
-    if pictured and words.output is not None:
+    if words.output is not None and words.output.suffix.lower() == ".csv":
+        result.save_table(words.output)
+    elif words.output is not None:
         from ..viewing.sweep_plot import draw_sweep
 
         draw_sweep(result, words.output)
-    elif words.output is not None:
-        result.save_table(words.output)
     if words.as_json:
         print_json(result)
     else:
@@ -119,8 +115,7 @@ def _print_sweep(console: Console, sweep: "Sweep", output: Path | None) -> None:
     for (status, _), told in reasons.items():
         more = f" (and {len(told) - 1} points like it)" if len(told) > 1 else ""
         console.print(f"{status} at {told[0]}{more}")
-    if output is not None:
-        console.print(f"written to {output}", soft_wrap=True)
+    tell_written(console, output)
 
 
 def _short(value: str) -> str:

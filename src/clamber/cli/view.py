@@ -11,7 +11,7 @@ from ..json_form import Count, Key
 from ..terminal.live_line import LiveLine
 from ..terminal.name_completion import names_of
 from ..terminal.options import AsJson, Overrides, Quiet, takes_options
-from ..terminal.output import check_writable, print_json, stderr, stdout
+from ..terminal.output import check_writable, print_json, stderr, stdout, tell_written
 
 if TYPE_CHECKING:
     from ..viewing.browser.app import App
@@ -122,7 +122,7 @@ def _save(things: list[str], words: ViewOptions, path: Path) -> None:
     if words.as_json:
         print_json(Saved(path, exhibit.title, size))
     else:
-        stdout().print(f"written to {path}", soft_wrap=True)
+        tell_written(stdout(), path)
 
 
 def _serve(app: "App", words: ViewOptions) -> None:

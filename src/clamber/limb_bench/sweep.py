@@ -1,22 +1,19 @@
 """Laws over a range of plants or gains: where each is best, and where it goes unstable, its boundary found by bisection."""
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from itertools import pairwise, product
 from pathlib import Path
 from typing import Annotated, Any, Final
 
-from ..control.law_settings import LAWS, LawError, LawSettings
 from ..errors import UnknownNameError
 from ..jobs import Outcome, read_result
 from ..json_form import HIDDEN, Key, in_json
 from ..planning.axes import Axis, check_axes
-from ..sim.flaw_texts import WHOLE, named_flaws, plant_words, read_flaws
+from ..sim.flaw_texts import WHOLE, plant_words
 from ..sim.limb_flaws import LimbFlaws
 from ..types import Json
-from ..units import read_number, read_point
-from .bench_limb import bench_limb, load_geared, read_elbow
-from .entries import GAINS, Match, reference_law, with_recommended_gains
+from .entries import GAINS
 from .measures import TipMeasures
 from .result import BenchResult
 from .runner import Crew
@@ -36,8 +33,6 @@ from .sweep_point import (
 SCHEMA: Final = "clamber-limb-sweep-1"
 PRECISION: Final = 0.02
 """Of a boundary, over the distance of the two grid values that it lies between."""
-CENTRE: Final = (0.22, 0.0)
-"""Of circles [m]."""
 TIP_FIELDS: Final = tuple(field.name for field in fields(TipMeasures))
 RUN_MEASURES: Final = ("work", "heat", "saturated", PEAK)
 MEASURES: Final = (*TIP_FIELDS, *(f"encoder.{name}" for name in TIP_FIELDS), *RUN_MEASURES)
@@ -152,83 +147,18 @@ class LimbSweep(BenchResult):
         ]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BenchTexts:
-    """What is the same at every point, in words as on the command line of `clamber limb sweep`."""
-
-    kind: MotionKind
-    measure: str | None = None
-    by: str = "0,-2cm"
-    radius: str = "5cm"
-    lap: float = 3.0
-    force: str = "10N,0"
-    laws: Sequence[str] = ()
-    kp: float | None = None
-    kd: float | None = None
-    match: Match = "yy"
-    reference: str = "scct"
-    robot: str = "libra"
-    limb: str | None = None
-    start: str | None = None
-    elbow: str | None = None
-    flaws: str = "nominal"
-    settings: Sequence[str] = ()
-    recommended: bool = False
-    """Whether laws without gains have those found by tuning."""
-
-
-def make_bench(texts: BenchTexts) -> Bench:
-    """A bench from words.
+def chosen_measure(kind: MotionKind, measure: str | None) -> str:
+    """What is compared of a motion: the usual measure unless one is named.
 
     Raises:
-        PointError, PlantError, LawError: If a word cannot be read, or its value is not allowed.
-        UnknownNameError: If there is no such robot, law, set of flaws or measure.
+        UnknownNameError: If the motion has no such measure.
     """
-    kind = texts.kind
-    chosen = USUAL_MEASURE[kind] if texts.measure is None else texts.measure
+    chosen = USUAL_MEASURE[kind] if measure is None else measure
     inner = chosen.rpartition(".")[2]
     if chosen not in MEASURES or (inner in TIP_FIELDS and inner not in SCENARIO_MEASURES[kind]):
-        sides = ("", "encoder.")
-        known = (*(f"{each}{name}" for each in sides for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
+        known = (*(f"{each}{name}" for each in ("", "encoder.") for name in SCENARIO_MEASURES[kind]), *RUN_MEASURES)
         raise UnknownNameError(f"measure of a {kind}", chosen, known)
-    plant = read_flaws(named_flaws(texts.flaws, load_geared(texts.robot)[0]), texts.settings)
-    law = reference_law(texts.reference, texts.kp, texts.kd)
-    stated: Json
-    size = read_number("radius", texts.radius, "length")
-    at = (CENTRE[0] + size, CENTRE[1]) if kind == "circle" else (0.22, 0.0)
-    if kind == "step":
-        stated = dict(zip(("dx", "dy"), read_point("by", texts.by), strict=True))
-    elif kind == "circle":
-        stated = {"centre": CENTRE, "radius": size, "lap": texts.lap}
-    else:
-        stated = {"force": read_point("force", texts.force, "force")}
-    laws = tuple(texts.laws)
-    where = at if texts.start is None else read_point("start", texts.start)
-    if texts.recommended:
-        chosen_limb = bench_limb(texts.robot, texts.limb, where, elbow=read_elbow(texts.elbow), upright=plant.upright)
-        laws = tuple(with_recommended_gains(chosen_limb, laws or tuple(LAWS)))
-    return Bench(
-        robot=texts.robot,
-        limb=texts.limb,
-        start=where,
-        elbow=read_elbow(texts.elbow),
-        kind=kind,
-        command=stated,
-        laws=laws,
-        reference=law.law,
-        kp=_one(law, "kp"),
-        kd=_one(law, "kd"),
-        match=texts.match,
-        measure=chosen,
-        flaws=asdict(plant),
-    )
-
-
-def _one(law: LawSettings, key: str) -> float:
-    value = getattr(law, key)
-    if isinstance(value, tuple):
-        raise LawError(law.law, key, value, "must be one number for all directions in a sweep")
-    return float(value)
+    return chosen
 
 
 def _places(axes: Sequence[Axis]) -> list[tuple[str, ...]]:

@@ -155,6 +155,22 @@ def check_writable(path: Path | None, *, force: bool = False) -> None:
             )
 
 
+def check_output(path: Path | None, *suffixes: str) -> None:
+    """Make sure that a picture, or a file with one of `suffixes`, can be written before anything runs."""
+    check_writable(path)
+    if path is not None:
+        from ..viewing.output import CANVASES, check_suffix
+
+        check_suffix(path, (*suffixes, *CANVASES))
+
+
+def tell_written(console: Console, *paths: Path | None) -> None:
+    """Print the names of files that were written."""
+    for path in paths:
+        if path is not None:
+            console.print(f"written to {path}", soft_wrap=True)
+
+
 def check_new(path: Path, force: bool) -> None:
     """Makes sure that a file can be written, and that there is none.
 

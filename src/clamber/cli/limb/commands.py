@@ -15,7 +15,8 @@ from ...terminal.worker_options import EndsLine
 from . import options as opt
 from .force import force, open_loop
 from .identify import identify, record
-from .sweep import portrait, sweep, tune
+from .portrait import portrait
+from .sweep import sweep, tune
 
 if TYPE_CHECKING:
     from ...limb_bench.measures import Measures

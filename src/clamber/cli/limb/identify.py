@@ -10,7 +10,7 @@ from rich.console import Console
 
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Quiet, Settings, takes_options
-from ...terminal.output import check_writable, print_json, stdout
+from ...terminal.output import check_output, check_writable, print_json, stdout
 from ...units import DEGREE
 from . import options as opt
 
@@ -94,7 +94,7 @@ def identify(
     words: IdentifyWords,
 ) -> None:
     """Find each joint's inertia, damping, friction, amplifier gain and backlash from a log, with standard errors."""
-    opt.check_output(words.output, ".toml")
+    check_output(words.output, ".toml")
     from ...execution.log_files import read_log
     from ...families.climber.execution.log_identify import Known, identify_log
 

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from ...terminal.name_completion import names_of
 from ...terminal.options import ROBOT, AsJson, Flaws, FlawsChoice, Output, Quiet, Settings
-from ...terminal.output import check_writable, print_json, stdout
+from ...terminal.output import check_output, check_writable, print_json, stdout, tell_written
 from ...terminal.worker_options import Batch, WorkerOptions
 from ...viewing.text_table import plain_table
 
@@ -166,22 +166,6 @@ def tell_batch(
         return
     show(stdout())
     tell_written(stdout(), *also, words.output)
-
-
-def check_output(path: Path | None, *suffixes: str) -> None:
-    """Make sure that a picture, or a file with one of `suffixes`, can be written before anything runs."""
-    check_writable(path)
-    if path is not None:
-        from ...viewing.output import CANVASES, check_suffix
-
-        check_suffix(path, (*suffixes, *CANVASES))
-
-
-def tell_written(console: Console, *paths: Path | None) -> None:
-    """Print the names of files that were written."""
-    for path in paths:
-        if path is not None:
-            console.print(f"written to {path}", soft_wrap=True)
 
 
 def show_table(

@@ -1,9 +1,7 @@
-"""`clamber limb sweep`, `tune` and `portrait`: laws over ranges of plants and gains, their largest stable gains, all they do."""
+"""`clamber limb sweep` and `tune`: laws over ranges of plants and gains, and their largest stable gains."""
 
 import math
-import sys
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Final
@@ -12,16 +10,21 @@ import typer
 from rich.console import Console
 
 from ...terminal.name_completion import names_of
-from ...terminal.options import ROBOT, AsJson, Quiet, takes_options
-from ...terminal.output import check_writable, print_json, stdout
+from ...terminal.options import takes_options
+from ...terminal.output import check_output, check_writable
 from ...terminal.worker_options import WorkerOptions
 from . import options as opt
 
 if TYPE_CHECKING:
-    from ...limb_bench.portrait import Portrait
+    from ...control.law_settings import LawSettings
+    from ...limb_bench.scenario import MotionKind
     from ...limb_bench.sweep import LimbSweep
+    from ...limb_bench.sweep_point import Bench
     from ...limb_bench.tune import Tuning
+    from ...types import Json
 
+CENTRE: Final = (0.22, 0.0)
+"""Of circles, and where other motions start [m]."""
 MARKS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 """Of laws in a map, in their order."""
 
@@ -76,37 +79,79 @@ def sweep(
 ) -> None:
     """Run laws at every point of a range: which is best where, and from where on each is unstable."""
     words.check()
-    opt.check_output(words.output, ".csv")
-    from ...limb_bench.sweep import BenchTexts, make_bench, run_limb_sweep
+    check_output(words.output, ".csv")
+    from ...limb_bench.sweep import run_limb_sweep
     from ...planning.axes import range_axis
 
     axes = [range_axis(text) for text in vary]
-    bench = make_bench(
-        BenchTexts(
-            kind=command.scenario.value,
-            measure=command.measure,
-            by=command.by,
-            radius=command.radius,
-            lap=command.lap,
-            force=command.force,
-            laws=laws.controllers or (),
-            kp=laws.kp,
-            kd=laws.kd,
-            match=laws.match.value,
-            reference=laws.reference,
-            robot=limb.robot,
-            limb=limb.limb,
-            start=limb.start,
-            elbow=limb.elbow,
-            flaws=limb.flaws.value,
-            settings=limb.settings or (),
-            recommended=gains is GainsChoice.recommended,
-        )
-    )
+    bench = make_bench(command, laws, limb, recommended=gains is GainsChoice.recommended)
     with words.keeping("points") as batch:
         result = run_limb_sweep(bench, axes, opt.crew_of(words, batch))
     opt.tell_batch(result, words, lambda console: print_limb_sweep(console, result))
     raise typer.Exit(0 if any(result.wins().values()) else 1)
+
+
+def make_bench(command: CommandWords, laws: opt.LawWords, limb: opt.LimbWords, *, recommended: bool = False) -> "Bench":
+    """A bench from words.
+
+    Args:
+        command: What is asked of the limb.
+        laws: What is compared.
+        limb: Which one, and its plant.
+        recommended: Whether laws without gains have those found by tuning.
+
+    Raises:
+        PointError, PlantError, LawError: If a word cannot be read, or its value is not allowed.
+        UnknownNameError: If there is no such robot, law, set of flaws or measure.
+    """
+    from ...control.law_settings import LAWS
+    from ...limb_bench.bench_limb import read_elbow
+    from ...limb_bench.entries import reference_law, with_recommended_gains
+    from ...limb_bench.sweep import chosen_measure
+    from ...limb_bench.sweep_point import Bench
+    from ...units import read_number, read_point
+
+    kind: MotionKind = command.scenario.value
+    measure = chosen_measure(kind, command.measure)
+    plant = limb.build_plant()
+    law = reference_law(laws.reference, laws.kp, laws.kd)
+    size = read_number("radius", command.radius, "length")
+    asked: Json
+    if kind == "step":
+        asked = dict(zip(("dx", "dy"), read_point("by", command.by), strict=True))
+    elif kind == "circle":
+        asked = {"centre": CENTRE, "radius": size, "lap": command.lap}
+    else:
+        asked = {"force": read_point("force", command.force, "force")}
+    names = tuple(laws.controllers or ())
+    usual = (CENTRE[0] + size, CENTRE[1]) if kind == "circle" else CENTRE
+    start = usual if limb.start is None else read_point("start", limb.start)
+    if recommended:
+        names = tuple(with_recommended_gains(limb.build_limb(plant, usual), names or tuple(LAWS)))
+    return Bench(
+        robot=limb.robot,
+        limb=limb.limb,
+        start=start,
+        elbow=read_elbow(limb.elbow),
+        kind=kind,
+        command=asked,
+        laws=names,
+        reference=law.law,
+        kp=_one(law, "kp"),
+        kd=_one(law, "kd"),
+        match=laws.match.value,
+        measure=measure,
+        flaws=asdict(plant),
+    )
+
+
+def _one(law: "LawSettings", key: str) -> float:
+    from ...control.law_settings import LawError
+
+    value = getattr(law, key)
+    if isinstance(value, tuple):
+        raise LawError(law.law, key, value, "must be one number for all directions in a sweep")
+    return float(value)
 
 
 def print_limb_sweep(console: Console, result: "LimbSweep") -> None:
@@ -220,7 +265,7 @@ def tune(
     """Find the largest gains at which the limb comes to rest after steps, circles and pushes, and recommend some below."""
     words.check()
     check_writable(save)
-    opt.check_output(words.output)
+    check_output(words.output)
     from ...control.recommended import read_recommended, save_recommended
     from ...limb_bench.tune import tune as find
     from ...regular_files import is_there
@@ -276,101 +321,3 @@ def print_tuning(console: Console, result: "Tuning") -> None:
     for law in result.laws:
         if not law.steady:
             console.print(f"{law.law}: does not come to rest at these gains: {law.situation}", soft_wrap=True)
-
-
-GAINS: Final = ("kp", "kd", "Kxx\nN/mm", "Kyy\nN/mm")
-NUMBERS: Final = tuple(
-    f"{scene}\n{plant}" for scene in ("step", "circle", "fed", "push") for plant in ("ideal", "nom.")
-)
-ERRORS: Final = tuple(f"{plant}\n{what}" for plant in ("ideal", "nom.") for what in ("mean N", "worst N"))
-
-
-@dataclass(frozen=True, slots=True)
-class PortraitWords:
-    """The limb of the portraits and how laws come by their gains, as it came."""
-
-    reference: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME[:KEY=VALUE,...]",
-            help="Match gains to this law, such as scct:kp=200,kd=10.",
-            autocompletion=names_of("controllers"),
-        ),
-    ] = None
-    match: opt.Matched = opt.MatchChoice.yy
-    robot: opt.Robot = ROBOT
-    limb: opt.LimbName = None
-    seed: Annotated[int, typer.Option(min=0, help="Draws play and encoder phase of the nominal limb.")] = 1
-
-
-@takes_options
-def portrait(
-    laws: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="LAW...", help="Laws by name, or all.", autocompletion=names_of("controllers", besides=("all",))
-        ),
-    ],
-    folder: Annotated[
-        Path | None, typer.Option("--output", "-o", metavar="DIR", help="Write DIR/LAW.png for each law.")
-    ] = None,
-    *,
-    words: PortraitWords,
-    markdown: Annotated[bool, typer.Option("--markdown", help="Print the tables as a page has them.")] = False,
-    as_json: AsJson = False,
-    quiet: Quiet = False,
-) -> None:
-    """Show what each law does: a step, a circle, a push, forces on a wall; ideal and nominal limb.
-
-    Gains are those recommended for the limb, unless they are matched to a reference.
-    """
-    from ...limb_bench.entries import read_law
-    from ...limb_bench.portrait import Portraits, paint_portraits
-    from ...regular_files import make_folder
-
-    if folder is not None:
-        make_folder(folder)
-    matched = None if words.reference is None else read_law(words.reference)
-    portraits = paint_portraits(
-        () if laws == ["all"] else laws,
-        robot=words.robot,
-        limb=words.limb,
-        matched=matched,
-        match=words.match.value,
-        seed=words.seed,
-    )
-    if folder is not None:
-        for each in portraits:
-            each.write(folder / f"{each.law}.png")
-    if as_json:
-        print_json(Portraits(seed=words.seed, laws=tuple(portraits)))
-    elif markdown:
-        print_markdown(portraits)
-    else:
-        print_portraits(stdout(), portraits, folder)
-
-
-def print_markdown(portraits: "Sequence[Portrait]") -> None:
-    """Print the rows of motions, and after an empty line those of forces, as docs/controllers.md has them."""
-    rows = ["| " + " | ".join(each.row()) + " |" for each in portraits]
-    forces = ["| " + " | ".join(row) + " |" for each in portraits for row in each.force_rows()]
-    sys.stdout.write("\n".join([*rows, *(["", *forces] if forces else [])]) + "\n")
-
-
-def print_portraits(console: Console, portraits: "Sequence[Portrait]", folder: Path | None = None) -> None:
-    """Print the figures of every law."""
-    opt.show_table(console, ("law", *GAINS), [each.gains_row() for each in portraits])
-    console.print()
-    opt.show_table(console, ("law", *NUMBERS), [each.row() for each in portraits])
-    console.print()
-    console.print("ideal: friction alone; nom.: backlash, encoders, delay too; all in truth, in mm")
-    console.print("step: most across, of 2 cm; circle: radial RMS, last lap of 3 s; fed: with the")
-    console.print("aim's acceleration and friction fed forward; push: yielding along 10 N")
-    rows = [row for each in portraits for row in each.force_rows()]
-    if rows:
-        console.print()
-        opt.show_table(console, ("law", "joint friction", *ERRORS), rows, ("law", "joint friction"))
-        console.print()
-        console.print(f"errors of {portraits[0].task.force:g} N on a wall, standing and sliding")
-    if folder is not None:
-        console.print(f"pictures written to {folder}", soft_wrap=True)

@@ -34,8 +34,7 @@ def plan(
         from .front import front
 
         raise typer.Exit(front(problem, words.pareto, words))
-    sought = words.openings_seconds if words.openings and words.chosen in PROVERS and not words.to_run else None
-    seeker = Seeker(problem, sought, words.threads, words.as_json, words.quiet)
+    seeker = Seeker(problem, words, looks=words.openings and words.chosen in PROVERS and not words.to_run)
     if words.to_run:
         from .to_run import plan_to_run
 
@@ -66,7 +65,7 @@ def _search(task: "Task", words: PlanOptions, seeker: "Seeker") -> "PlanResult":
     """Search as was asked for: on islands, or by one planner, whose trouble with the start is told with what would allow it."""
     options = words.planner_options(task)
     if words.islands is not None:
-        return islands_result(task, words.chosen, options, words.islands, words.workers, words.ray, quiet=words.quiet)
+        return _plan_islands(task, options, words, words.islands)
     from ...planning.planners import plan_task
     from .text import ProgressLine
 
@@ -78,16 +77,7 @@ TAKEN = ("seed", "profile", "max_evaluations")
 """Options of the genetic planner that islands take, too."""
 
 
-def islands_result(
-    task: "Task",
-    planner: str,
-    options: dict[str, Any],
-    islands: int,
-    workers: int | None,
-    ray: str | None,
-    *,
-    quiet: bool,
-) -> "PlanResult":
+def _plan_islands(task: "Task", options: dict[str, Any], words: PlanOptions, islands: int) -> "PlanResult":
     """Plan with islands; `options` are those of the genetic planner.
 
     Raises:
@@ -95,14 +85,14 @@ def islands_result(
     """
     from ...planning.islands import plan_islands
 
-    if planner != "genetic":
+    if words.chosen != "genetic":
         raise typer.BadParameter("only the genetic planner has populations", param_hint="--islands")
     other = [name for name, value in options.items() if name not in TAKEN and value is not None]
     if other:
         raise typer.BadParameter(f"islands don't take {', '.join(other)}", param_hint="--islands")
-    executor = executor_of(ray, workers)
-    if ray is not None:
+    executor = executor_of(words.ray, words.workers)
+    if words.ray is not None:
         executor.check()
     given = {name: options[name] for name in TAKEN}
-    with EndsLine(stderr(), "islands", quiet=quiet) as line:
+    with EndsLine(stderr(), "islands", quiet=words.quiet) as line:
         return plan_islands(task, islands=islands, executor=executor, progress=line.update, **given)

@@ -9,7 +9,7 @@ from ...planning.exact.front import Front, plan_front
 from ...planning.exact.planner import MOST_STANCES
 from ...planning.problem.problems import plan_family
 from ...tasks import Task
-from ...terminal.output import print_json, stderr, stdout
+from ...terminal.output import check_output, print_json, stderr, stdout
 from ...viewing.text_table import plain_table
 from .options import PlanOptions
 from .text import ProgressLine
@@ -19,11 +19,7 @@ def front(task: Task, costs: str, words: PlanOptions) -> int:
     """Find a front, print it, and draw it or write it to the output (png, svg, pdf; json); returns the exit status."""
     first, second = read_costs("--pareto", costs, least=2, most=2)
     output = words.output
-    drawn = output is not None and output.suffix.lower() != ".json"
-    if drawn and output is not None:
-        from ...viewing.output import CANVASES, check_suffix
-
-        check_suffix(output, (".json", *CANVASES))
+    check_output(output, ".json")
     with ProgressLine(stderr(), quiet=words.quiet) as line:
         found = plan_front(
             task,
@@ -33,12 +29,12 @@ def front(task: Task, costs: str, words: PlanOptions) -> int:
             max_stances=MOST_STANCES if words.stances is None else words.stances,
             progress=line.update,
         )
-    if drawn and output is not None:
+    if output is not None and output.suffix.lower() == ".json":
+        found.save(output)
+    elif output is not None:
         from ...viewing.plan_curves import draw_front
 
         draw_front(found, output)
-    elif output is not None:
-        found.save(output)
     if words.as_json:
         print_json(found)
     else:

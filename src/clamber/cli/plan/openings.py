@@ -15,6 +15,7 @@ from ...planning.result import PlanResult
 from ...tasks import Task
 from ...terminal.output import print_json, stderr, stdout
 from ...viewing.text_table import plain_table
+from .options import PlanOptions
 from .text import ProgressLine
 
 
@@ -43,10 +44,9 @@ class NoStart:
 class Seeker:
     """Looks for openings where a planner proved that there is no plan, and tells them."""
 
-    def __init__(self, task: Task, seconds: float | None, threads: int | None, as_json: bool, quiet: bool) -> None:
-        """Bind a task; `seconds` None: nothing is looked for."""
-        self._task, self._seconds, self._threads = task, seconds, threads
-        self._as_json, self._quiet = as_json, quiet
+    def __init__(self, task: Task, words: PlanOptions, *, looks: bool) -> None:
+        """Bind a task; unless it `looks`, nothing is looked for."""
+        self._task, self._words, self._looks = task, words, looks
 
     @contextmanager
     def told_of_start(self) -> Iterator[None]:
@@ -55,7 +55,7 @@ class Seeker:
             yield
         except (StartError, SpecError) as error:
             if (found := self._find()) is not None:
-                if self._as_json:
+                if self._words.as_json:
                     print_json(NoStart(task=self._task.name, reason=str(error), openings=found))
                 else:
                     print_openings(stdout(), found)
@@ -71,10 +71,11 @@ class Seeker:
             print_openings(stdout(), found)
 
     def _find(self) -> InfeasibilityExplanation | None:
-        if self._seconds is None:
+        if not self._looks:
             return None
-        with ProgressLine(stderr(), quiet=self._quiet) as line:
-            return explain_infeasibility(self._task, seconds=self._seconds, threads=self._threads, progress=line.update)
+        seconds, threads = self._words.openings_seconds, self._words.threads
+        with ProgressLine(stderr(), quiet=self._words.quiet) as line:
+            return explain_infeasibility(self._task, seconds=seconds, threads=threads, progress=line.update)
 
 
 WHY = {"interrupted": "interrupted", "time": "out of time (--openings-seconds)"}

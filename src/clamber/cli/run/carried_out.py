@@ -13,7 +13,7 @@ from ...terminal.output import print_json, refuse_unused, stderr, stdout, tell_c
 from ...trials.dynamics import NoPlanError, RunEvents, RunRequest
 from ...trials.work import Work
 from ...viewing.report.pages import open_report
-from .options import RunOptions
+from .command import RunOptions
 
 
 def carry_out(work: Work, words: RunOptions, command: str) -> None:

@@ -7,7 +7,7 @@ import typer
 from ....errors import SpecError
 from ....terminal.name_completion import names_of
 from ....terminal.options import BOARD, ROBOT, AsJson, Flaws, FlawsChoice, Output, Settings
-from ....terminal.output import check_writable, print_json, stdout
+from ....terminal.output import check_output, print_json, stdout
 from ....viewing.text_table import plain_table
 
 
@@ -28,19 +28,16 @@ def hold_force(
 
     The file of `-o` is a picture of force and body over time (.png, .svg, .pdf).
     """
-    check_writable(output)
+    check_output(output)
     from ....sim.flaw_texts import named_flaws, read_flaws
     from ....tasks.robots import load_robot
     from ....units import parse_quantity, read_point
-    from ....viewing.output import CANVASES, check_suffix
     from ..pictures.body_plots import draw_press
     from ..robot.robot import LimbedRobot
     from ..trials.hold_force import run_press
     from ..trials.run_plan import PHYSICS_RATE
     from ..world.library import load_board
 
-    if output is not None:
-        check_suffix(output, CANVASES)
     chosen = load_robot(robot)
     if not isinstance(chosen, LimbedRobot) or not {"right", "left", "bottom"} <= set(chosen.limb_names):
         raise SpecError(f"robot '{chosen.name}'", "limbs", chosen.name, "must be a LIBRA: limbs right, left and bottom")
