@@ -13,9 +13,8 @@ from clamber.studies.bevly_1997.learned_module import climbs, judge_learning, ju
 from clamber.studies.bevly_1997.limb_claims import damping_ratios, judge_damping, judge_identity
 from clamber.studies.bevly_1997.limb_entries import leg_1, scct
 from clamber.studies.bevly_1997.printed_plans import limbed_task
-from clamber.studies.bevly_1997.push_pull import Split, judge_push_pull, split_weight
 from clamber.studies.bevly_1997.search_variants import fight, judge_crossover, judge_subgoals, luck
-from clamber.studies.bevly_1997.static_torques import judge_static
+from clamber.studies.bevly_1997.static_forces import Split, judge_push_pull, judge_static, split_weight
 from clamber.studies.library import STUDIES
 
 

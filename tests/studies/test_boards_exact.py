@@ -11,8 +11,8 @@ from clamber.planning.beam_layers import Beam
 from clamber.planning.problem.problems import pose_problem
 from clamber.studies.bevly_1997.printed_plans import limbed_task
 from clamber.studies.boards_exact.hook_cones import bisect_cone, holds_at, hooked
-from clamber.studies.boards_exact.no_rotation import forbid_rotation_with
-from clamber.studies.boards_exact.peg_spacing import vary_spacing_over
+from clamber.studies.boards_exact.no_rotation import forbid_rotation
+from clamber.studies.boards_exact.peg_spacing import vary_spacing
 from clamber.studies.boards_exact.proofs import BARE_H, BOARDS, COARSE, MODEL, prove
 from clamber.studies.boards_exact.torques import (
     joined,
@@ -83,7 +83,7 @@ def test_a_plan_for_a_narrow_cone_holds_in_every_wider_one() -> None:
 
 
 def test_without_rotation_all_stances_are_seen_and_counted() -> None:
-    result = forbid_rotation_with(2000, range(0), (Beam(width=20, longest=20),))
+    result = forbid_rotation(2000, range(0), (Beam(width=20, longest=20),))
     assert result.verdict == "holds"
     assert result.numbers["stances that can be reached, all of them seen"] == 2234
     assert result.numbers["free, no hangs"] == "69 actions"
@@ -92,7 +92,7 @@ def test_without_rotation_all_stances_are_seen_and_counted() -> None:
 
 @pytest.mark.slow
 def test_ladders_of_other_spacings_are_planned_each() -> None:
-    result = vary_spacing_over("board.spacing=18in..20in:2", "board.rung=6in..8in:2")
+    result = vary_spacing("board.spacing=18in..20in:2", "board.rung=6in..8in:2")
     assert result.numbers["marked ladders climbed"] == "2 of 2"
     assert result.table is not None
     assert {row[:2] for row in result.table.rows} == {(18.0, 6.0), (18.0, 8.0), (20.0, 6.0), (20.0, 8.0)}

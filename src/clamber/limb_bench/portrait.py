@@ -17,7 +17,7 @@ from ..sim.limb_flaws import LimbFlaws
 from ..types import Floats
 from .bench_limb import bench_limb
 from .entries import GAINS, Match, gain_unit, make_entries, tip_stiffness, with_recommended_gains
-from .force import ForceRow, force_gains, force_settings, run_force
+from .force import ForceRow, force_entries, run_force
 from .measures import Entry, ForceMeasures, Measured, Measures, measure
 from .result import BenchResult
 from .runner import run_contest
@@ -201,11 +201,8 @@ def _press(
 ) -> dict[str, tuple[ForceRow, ...]]:
     if law not in COMPENSATION:
         return {}
-    out = {}
-    for plant, flaws in plants.items():
-        gains = force_gains(limb, task, flaws)
-        entries = [
-            Entry(f"{law} / {way}", force_settings(law, way, gains, task)) for way in ("none", COMPENSATION[law])
-        ]
-        out[plant] = run_force(limb, task, entries, flaws).rows
-    return out
+    ways = ("none", COMPENSATION[law])
+    return {
+        plant: run_force(limb, task, force_entries(limb, task, flaws, [law], ways), flaws).rows
+        for plant, flaws in plants.items()
+    }

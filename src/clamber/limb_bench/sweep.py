@@ -1,7 +1,7 @@
 """Laws over a range of plants or gains: where each is best, and where it goes unstable, its boundary found by bisection."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
 from pathlib import Path
 from typing import Annotated, Any, Final
@@ -186,7 +186,7 @@ def run_limb_sweep(bench: Bench, axes: Sequence[Axis], crew: Crew | None = None)
     limb = bench.build_limb()
     built = [bench.build_point(limb, varied) for varied in places]  # every mistake is told before anything runs
     labels = tuple(entry.label for entry in built[0][1])
-    about = {"bench": bench.to_json()}
+    about: Json = {"bench": asdict(bench)}
     items: list[Json] = [about | {"varied": varied} for varied in places]
     title = f"the limb sweep over {' and '.join(axis.key for axis in axes)}"
     ends = crew.map(run_point, items, title=title, about=about | {"axes": [axis.to_json() for axis in axes]})

@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 
 from ..errors import StatedError, UnknownNameError
+from ..jobs import read_result
 from ..sim.bench_limb import BenchLimb
 from ..sim.flaw_texts import DIMENSIONS as FLAWS
 from ..sim.flaw_texts import WHOLE, read_flaw
@@ -62,15 +63,6 @@ class Bench:
     """A field of `TipMeasures`, of the truth or with "encoder." before it, of `Measures`, or `PEAK`."""
     flaws: Json
     """Fields of `LimbFlaws`."""
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return asdict(self) | {"start": list(self.start), "laws": list(self.laws)}
-
-    @classmethod
-    def from_json(cls, value: Json) -> "Bench":
-        """The bench of `to_json`."""
-        return cls(**value | {"start": tuple(value["start"]), "laws": tuple(value["laws"])})
 
     def build_limb(self) -> BenchLimb:
         """The limb at its start."""
@@ -189,7 +181,7 @@ def run_point(item: Json) -> Json:
     Returns:
         The fields of `Cell` by label of the law.
     """
-    cells = try_laws(Bench.from_json(item["bench"]), item["varied"])
+    cells = try_laws(read_result(Bench, item["bench"]), item["varied"])
     return {label: asdict(cell) for label, cell in cells.items()}
 
 
@@ -203,7 +195,7 @@ def find_boundary(item: Json) -> Json:
     Returns:
         `at`, in that unit.
     """
-    bench, low, high = Bench.from_json(item["bench"]), item["low"], item["high"]
+    bench, low, high = read_result(Bench, item["bench"]), item["low"], item["high"]
     while high - low > item["precision"]:
         middle = 0.5 * (low + high)
         text = f"{middle:.12g} {item['unit']}".rstrip()

@@ -69,8 +69,8 @@ OF_PLANNING: Final = _of(
         "sub-goals": "search_variants:compare_subgoals",
         "learned-module": "learned_module:learn_to_climb",
         "modules-alone": "learned_module:plan_with_modules_alone",
-        "push-pull": "push_pull:compare_push_pull",
-        "static-torques": "static_torques:compare_torques",
+        "push-pull": "static_forces:compare_push_pull",
+        "static-torques": "static_forces:compare_torques",
     },
 )
 """Chapter 2 of Bevly 1997: plans of action modules."""

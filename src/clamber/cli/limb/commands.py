@@ -12,6 +12,7 @@ from rich.console import Console
 from ...terminal.options import takes_options
 from ...terminal.output import stderr
 from ...terminal.worker_options import EndsLine
+from ...units import read_number, read_point
 from . import options as opt
 from .force import force, open_loop
 from .identify import identify, record
@@ -21,8 +22,7 @@ from .sweep import sweep, tune
 if TYPE_CHECKING:
     from ...limb_bench.measures import Measures
     from ...limb_bench.result import LimbResult, Row
-    from ...limb_bench.scenario import Scenario
-    from ...sim.bench_limb import BenchLimb
+    from ...limb_bench.scenario import MotionKind
     from ...types import Floats
 
 LEAST_TRIALS: Final = 4
@@ -97,14 +97,8 @@ def step(
 ) -> None:
     """Let the aim jump, and compare how each law gets there: along the step, across it, at rest."""
     words.check(".json", ".csv")
-    from ...limb_bench.scenario import step_scenario
-    from ...units import read_point
-
-    def command(limb: "BenchLimb", rate: float) -> "Scenario":
-        dx, dy = read_point("by", by)
-        return step_scenario(limb, rate, dx=dx, dy=dy, seconds=seconds)
-
-    _compare(words, command)
+    dx, dy = read_point("by", by)
+    _compare(words, "step", dx=dx, dy=dy, seconds=seconds)
 
 
 @takes_options
@@ -118,15 +112,8 @@ def circle(
 ) -> None:
     """Let the aim run round a circle, and compare how far each law leaves it in the last lap."""
     words.check(".json", ".csv")
-    from ...limb_bench.scenario import circle_scenario
-    from ...units import read_number, read_point
-
     middle, size = read_point("centre", centre), read_number("radius", radius, "length")
-
-    def command(limb: "BenchLimb", rate: float) -> "Scenario":
-        return circle_scenario(limb, rate, centre=middle, radius=size, lap=lap, laps=laps)
-
-    _compare(words, command, (middle[0] + size, middle[1]))
+    _compare(words, "circle", (middle[0] + size, middle[1]), centre=middle, radius=size, lap=lap, laps=laps)
 
 
 @takes_options
@@ -140,29 +127,20 @@ def push(
 ) -> None:
     """Push the tip and let it go, and compare how far each law yields, where to, and how it comes back."""
     words.check(".json", ".csv")
-    from ...limb_bench.scenario import push_scenario
-    from ...units import read_point
-
-    def command(limb: "BenchLimb", rate: float) -> "Scenario":
-        pushed = read_point("force", force, "force")
-        return push_scenario(limb, rate, force=pushed, start=begin, end=end, seconds=seconds)
-
-    _compare(words, command)
+    pushed = read_point("force", force, "force")
+    _compare(words, "push", force=pushed, start=begin, end=end, seconds=seconds)
 
 
-def _compare(
-    words: MotionWords,
-    command: "Callable[[BenchLimb, float], Scenario]",
-    start: tuple[float, float] = (0.22, 0.0),
-) -> None:
-    """Run the laws, write and print what came out, and leave with the exit code."""
+def _compare(words: MotionWords, kind: "MotionKind", at_first: tuple[float, float] = (0.22, 0.0), **how: Any) -> None:
+    """Run the laws, the tip `at_first` there unless a start is said, write and print what came out, and leave with the exit code."""
     from ...limb_bench.entries import make_entries, match_pose, reference_law
     from ...limb_bench.result import Matching, compare_laws
     from ...limb_bench.runner import Contest
+    from ...limb_bench.scenario import MOTIONS
 
     flaws = words.build_plant(words.seed, drawn=words.trials > 1)
-    limb = words.build_limb(flaws, start)
-    scenario = command(limb, flaws.control_rate)
+    limb = words.build_limb(flaws, at_first)
+    scenario = MOTIONS[kind](limb, flaws.control_rate, **how)
     reference, at = reference_law(words.reference, words.kp, words.kd), match_pose(limb, scenario)
     entries = make_entries(limb, words.controllers or (), reference, words.match.value, at)
     with EndsLine(stderr(), "trials", quiet=words.quiet or words.trials == 1) as line:

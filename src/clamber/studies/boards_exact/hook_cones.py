@@ -6,11 +6,12 @@ from typing import Final
 import numpy as np
 
 from ...families.climber.pictures.charts import draw_cones
+from ...jobs import read_result
 from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
-from .proofs import BOARDS, HARD_HOOKS, KEPT, MODEL, NEVER_HANGS, TOLD, Proof, cone, proof_of, prove, prove_all, run_all
+from .proofs import BOARDS, HARD_HOOKS, KEPT, MODEL, NEVER_HANGS, TOLD, Proof, cone, prove, prove_all, run_all
 
 CONES: Final = (90.0, 75.0, 60.0)
 """Half angles of the cone about the grab direction that a hook takes forces in [deg]."""
@@ -87,7 +88,7 @@ def narrow_cones() -> StudyResult:
     """The narrowest cone of each board."""
     bisected = run_all(bisect_item, [{"board": board} for board in BOARDS])
     tried = {
-        board: {degrees: proof_of(proof) for degrees, proof in told["tried"]}
+        board: {degrees: read_result(Proof, proof) for degrees, proof in told["tried"]}
         for board, told in zip(BOARDS, bisected, strict=True)
     }
     more = [(board, degrees) for board in BOARDS for degrees in (*CONES[1:], *SHOWN) if degrees not in tried[board]]

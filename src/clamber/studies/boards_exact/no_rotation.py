@@ -33,13 +33,8 @@ BEAMS: Final = (Beam(), Beam(width=5000, niche=50, toll=0.01, longest=200))
 SEEDS: Final = range(5)
 
 
-def forbid_rotation() -> StudyResult:
-    """Exact search in four readings, without hangs and with one."""
-    return forbid_rotation_with(MOST_WITH_A_HANG, SEEDS, BEAMS)
-
-
-def forbid_rotation_with(most: int, seeds: range, beams: tuple[Beam, ...]) -> StudyResult:
-    """The same with stated efforts where one hang is allowed: stances of exact search, seeds of the genetic one, beams."""
+def forbid_rotation(most: int = MOST_WITH_A_HANG, seeds: range = SEEDS, beams: tuple[Beam, ...] = BEAMS) -> StudyResult:
+    """Exact search in four readings, without hangs and with one; where one is allowed by stances, seeds of the genetic search, beams."""
     rows: list[tuple[Value, ...]] = []
     proofs: dict[str, Proof] = {}
     for words, rules in READINGS.items():

@@ -24,13 +24,8 @@ LIFTS: Final = (2, 4, 6, -2, -4, -6)
 """Other heights of the start tried where the task's own is not allowed [in]."""
 
 
-def vary_spacing() -> StudyResult:
+def vary_spacing(across: str = ACROSS, up: str = UP) -> StudyResult:
     """Shortest plan on ladders of every width and rung."""
-    return vary_spacing_over(ACROSS, UP)
-
-
-def vary_spacing_over(across: str, up: str) -> StudyResult:
-    """The same over chosen ranges."""
     axes = (range_axis(across), range_axis(up))
     marks = [read_mark(mark, axes) for mark in MARKS]
     swept = run_sweep("ladder", axes, overrides=(*MODEL, TALL), marks=marks, workers=CORES)

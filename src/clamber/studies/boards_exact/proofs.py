@@ -10,7 +10,7 @@ import numpy as np
 from ...errors import StartError
 from ...families.climber.planning.task import LimbedTask
 from ...families.climber.statics.checks import DEFAULT_HARD
-from ...jobs import Outcome, map_items
+from ...jobs import map_items, read_result
 from ...planning.exact.planner import plan_exact
 from ...planning.problem.problem import Replay
 from ...planning.problem.problems import pose_problem
@@ -156,23 +156,17 @@ def prove_all(items: Sequence[Json]) -> list[Proof]:
     Args:
         items: Arguments of `prove`, as plain data.
     """
-    return [proof_of(result) for result in run_all(prove_item, items)]
-
-
-def proof_of(told: Json) -> Proof:
-    """A proof from plain data."""
-    return Proof(**told | {"overrides": tuple(told["overrides"]), "codes": tuple(told["codes"])})
+    return [read_result(Proof, told) for told in run_all(prove_item, items)]
 
 
 def run_all(function: Any, items: Sequence[Json]) -> list[Json]:
     """Items over one process a core; an item that fails is a broken promise of this study."""
     prove("ladder", MODEL, most=1)  # compiles the kernels here, once, and not in every worker at the same time
-    return [_result(outcome) for outcome in map_items(function, items, workers=CORES)]
-
-
-def _result(outcome: Outcome) -> Json:
-    assert outcome.result is not None, outcome.error
-    return outcome.result
+    told = []
+    for outcome in map_items(function, items, workers=CORES):
+        assert outcome.result is not None, outcome.error
+        told.append(outcome.result)
+    return told
 
 
 PRINTED: Final[dict[str, tuple[str, str, tuple[str, ...]]]] = {

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...errors import StartError
 from ...families.climber.planning.task import LimbedTask
+from ...jobs import read_result
 from ...planning.exact.front import plan_front
 from ...planning.problem.problems import pose_problem
 from ...planning.problem.verdict import check_plan
@@ -16,7 +17,7 @@ from ...units import DEGREE, INCH, OZ_IN
 from ...viewing.plan_curves import draw_front
 from ..bevly_1997.printed_plans import limbed_task
 from ..result import Compared, Figure, StudyResult, Table, Value
-from .proofs import BOARDS, MODEL, NEVER_HANGS, TOLD, Proof, proof_of, prove, prove_all, run_all
+from .proofs import BOARDS, MODEL, NEVER_HANGS, TOLD, Proof, prove, prove_all, run_all
 
 MOVES: Final = 'rules.allowed=["+x","-x","+y","-y","+theta","-theta"]'
 """Only the body moves."""
@@ -131,11 +132,6 @@ def calmest_item(item: Json) -> Json:
     return asdict(calmest(item["board"]))
 
 
-def calm_of(told: Json) -> Calm:
-    """From plain data."""
-    return Calm(**told | {"proof": proof_of(told["proof"])})
-
-
 BOARD: Final = "h"
 NUDGE: Final = 1e-6
 """How far above and below the least torque the limit is set, as a part of it [-]."""
@@ -210,7 +206,7 @@ def _level(task: LimbedTask) -> float:
 def find_least_torques() -> StudyResult:
     """Least torques of the five boards, the start fixed and free."""
     fixed = prove_all([{"name": board, "overrides": MODEL, "minimize": ("torque", "length")} for board in BOARDS])
-    calms = [calm_of(told) for told in run_all(calmest_item, [{"board": board} for board in BOARDS])]
+    calms = [read_result(Calm, told) for told in run_all(calmest_item, [{"board": board} for board in BOARDS])]
     items: list[Json] = [
         {"name": board, "overrides": (*calm.proof.overrides, limit(calm.proof.torque or 0.0, nudge))}
         for board, calm in zip(BOARDS, calms, strict=True)
