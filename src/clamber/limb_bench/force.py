@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -168,6 +167,7 @@ class ForceRow(Jsonable, Measured[ForceMeasures]):
 class ForceResult(Comparison):
     """Laws on the same wall, the same limb, the same command."""
 
+    picture = "force:draw_force"
     schema: str = SCHEMA
     limb: Annotated[BenchLimb, Key(get=LimbAtStart.of, kind=LimbAtStart, after="task")]
     task: Annotated[ForceTask, Key(kind=dict[str, Any], after="schema")]
@@ -205,12 +205,6 @@ class ForceResult(Comparison):
         if task.task_stiffness != task.stiffness:
             told.append(f"the stiffness is {task.task_stiffness / 1e3:g} N/mm")
         return f"the laws believe that {' and '.join(told)}" if told else ""
-
-    def draw(self, path: str | Path) -> None:
-        """Draw the force of each law over time, beside the limb at the wall."""
-        from .pictures.force import draw_force
-
-        draw_force(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each law."""

@@ -8,7 +8,6 @@ part along the wanted direction for all transforms.
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -210,6 +209,7 @@ def run_open_loop(
 class OpenLoopResult(Comparison):
     """Paths of one limb's tip under several transforms of the same wanted direction."""
 
+    picture = "force:draw_open_loop_result"
     schema: str = SCHEMA
     direction: Annotated[float, Key(after="force")]
     """From the x axis of the port frame [rad]."""
@@ -240,12 +240,6 @@ class OpenLoopResult(Comparison):
     def plant_words(self) -> str:
         """The plant and what is not ideal about it, in one line."""
         return f"{self.plant}, {plant_words(self.flaws, rate=False)}"
-
-    def draw(self, path: str | Path) -> None:
-        """Draw the path of the tip under each transform."""
-        from .pictures.force import draw_open_loop_result
-
-        draw_open_loop_result(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of each transform."""

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
-from pathlib import Path
 from typing import Annotated, Any, Final
 
 import numpy as np
@@ -47,6 +46,7 @@ def _by_friction(forces: Mapping[str, tuple[ForceRow, ...]]) -> dict[str, dict[s
 class Portrait(BenchResult):
     """One law in every scene, by plant: "ideal" and "nominal"."""
 
+    picture = "portrait:draw_portrait"
     settings: Annotated[LawSettings, Key("law", get=attrgetter("law"), kind=str), Key(kind=dict[str, Any])]
     stiffness: Annotated[Floats, Key(kind=list[list[float]])]
     """At the tip at `STEP_START`, shape (2, 2) [N/m]."""
@@ -88,12 +88,6 @@ class Portrait(BenchResult):
                 for plant, one in plants
             }
         return out
-
-    def draw(self, path: str | Path) -> None:
-        """Draw step, circle and push or wall."""
-        from .pictures.portrait import draw_portrait
-
-        draw_portrait(self, path)
 
     def gains_row(self) -> tuple[str, ...]:
         """Its line in a table: law, kp, kd with units; stiffness of the tip along x and y [N/mm]."""

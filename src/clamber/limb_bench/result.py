@@ -6,9 +6,10 @@ import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
+from importlib import import_module
 from operator import attrgetter
 from pathlib import Path
-from typing import Annotated, Any, Final
+from typing import Annotated, Any, ClassVar, Final
 
 import numpy as np
 
@@ -49,6 +50,8 @@ class BenchResult(Jsonable):
     """A result that can be kept in files."""
 
     __slots__ = ()
+    picture: ClassVar[str]
+    """Module of `pictures`, and function in it that draws such a result into a file."""
 
     def table(self) -> tuple[list[str], list[list[Any]]]:
         """Columns and lines of its CSV; an empty field is what never came."""
@@ -61,7 +64,8 @@ class BenchResult(Jsonable):
             SuffixError: If the file's suffix names no format for still pictures.
             FileError: If the file cannot be written.
         """
-        raise NotImplementedError
+        module, _, name = self.picture.partition(":")
+        getattr(import_module(f"{__package__}.pictures.{module}"), name)(self, path)
 
     def save(self, path: str | Path) -> None:
         """Write `to_json` to a file, whole or not at all."""
@@ -183,6 +187,7 @@ class Row(Jsonable, Measured[tuple[Measures, ...]]):
 class LimbResult(Comparison, Pictured):
     """What came out of one scenario with several laws on one plant."""
 
+    picture = "comparison:draw_comparison"
     schema: str = SCHEMA
     scenario: Annotated[Scenario, Key(after="schema")]
     matching: Annotated[Matching, Key("match", after="plant")]
@@ -275,12 +280,6 @@ class LimbResult(Comparison, Pictured):
                 if most > LEAST_BEYOND:
                     out[name] = max(out.get(name, 0.0), float(most))
         return out
-
-    def draw(self, path: str | Path) -> None:
-        """Draw paths, errors over time and torques of the first trial."""
-        from .pictures.comparison import draw_comparison
-
-        draw_comparison(self, path)
 
     def traces(self) -> Iterable[tuple[str, LimbTrace]]:
         """Of the first trial of each law."""

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, fields
 from itertools import pairwise, product
-from pathlib import Path
 from typing import Annotated, Any, Final
 
 from ..errors import UnknownNameError
@@ -76,6 +75,7 @@ class SweepPoint:
 class LimbSweep(BenchResult):
     """All points of a sweep, the last axis fastest."""
 
+    picture = "sweep:draw_sweep"
     schema: str = SCHEMA
     bench: Annotated[Bench, Key(kind=dict[str, Any])]
     axes: tuple[Axis, ...]
@@ -130,12 +130,6 @@ class LimbSweep(BenchResult):
         if bench.match == "none":
             return f"the numbers of {bench.reference}{told}, not matched"
         return f"matched by '{bench.match}' to {bench.reference}{told}"
-
-    def draw(self, path: str | Path) -> None:
-        """Draw curves over one axis, or a map of the best law over two."""
-        from .pictures.sweep import draw_sweep
-
-        draw_sweep(self, path)
 
     def table(self) -> tuple[list[str], list[list[Any]]]:
         """One line for each law at each point."""

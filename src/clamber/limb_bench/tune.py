@@ -117,6 +117,7 @@ class Tuned(Jsonable):
 class Tuning(BenchResult):
     """What was found for a limb."""
 
+    picture = "sweep:draw_tuning"
     limb: Annotated[
         BenchLimb,
         Key("robot", get=attrgetter("robot.name"), kind=str),
@@ -136,12 +137,6 @@ class Tuning(BenchResult):
     def steady(self) -> bool:
         """Whether every law is steady at its recommended gains."""
         return all(law.steady for law in self.laws)
-
-    def draw(self, path: str | Path) -> None:
-        """Draw a panel for each law: where in kp and kd the limb comes to rest."""
-        from .pictures.sweep import draw_tuning
-
-        draw_tuning(self, path)
 
     def recommended(self) -> list[Recommended]:
         """Gains to be kept, of the laws that are steady with them."""

@@ -9,6 +9,8 @@ from ..json_form import HIDDEN, Jsonable, Key, in_json
 
 Verdict: TypeAlias = Literal["holds", "consistent", "differs", "open"]
 Value: TypeAlias = int | float | str | None
+Cells: TypeAlias = tuple[Value, ...]
+"""A row of a table."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +29,7 @@ class Table:
     """Rows behind the numbers, for the report."""
 
     columns: tuple[str, ...]
-    rows: tuple[tuple[Value, ...], ...]
+    rows: tuple[Cells, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,7 +19,7 @@ from ..regular_files import is_file, make_folder
 from ..specs import spec
 from ..viewing.report.pages import open_report, write_page, write_style
 from .library import STUDIES, TITLES
-from .result import StudyResult, Value, Verdict
+from .result import Cells, StudyResult, Value, Verdict
 
 PictureFile = Annotated[str, StringConstraints(pattern=r"^[\w.-]+\.png$")]
 """Beside the result's page."""
@@ -38,7 +38,7 @@ class ToldTable:
     """The rows behind a result."""
 
     columns: tuple[str, ...]
-    rows: tuple[tuple[Value, ...], ...]
+    rows: tuple[Cells, ...]
 
 
 @spec

@@ -13,7 +13,7 @@ from ...families.climber.execution.postures import postures
 from ...types import Floats
 from ...units import DEGREE
 from ...viewing.study_lines_plot import draw_angle_errors
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI
 from .body_entries import PEG_ERROR
 from .printed_plans import INFERRED, PLANS, Replayed, replay_printed
@@ -116,7 +116,7 @@ def _rms(values: Floats) -> float:
     return float(np.sqrt(np.mean(values**2)))
 
 
-def _row(plan: str, held: list[Held], lost: list[int]) -> tuple[Value, ...]:
+def _row(plan: str, held: list[Held], lost: list[int]) -> Cells:
     places = [_rms(np.concatenate([errors[:, k] for errors in ways])) * MILLI for k in (0, 1) for ways in _both(held)]
     return (plan, len(held), len(held) * DRAWS, *lost, *places)
 

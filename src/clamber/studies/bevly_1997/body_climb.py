@@ -18,7 +18,7 @@ from ...families.climber.trials.run_plan import ClimbRun, run_plan
 from ...planning.problem.plan import Plan
 from ...types import Floats
 from ...units import INCH
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 from .limb_entries import SCCT
@@ -235,7 +235,7 @@ def show_gait() -> StudyResult:
     """Two rungs, action by action."""
     found = _facts()
     facts = found[PRINTED][1]
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (label, f"{a.first}-{a.last}", a.kind, a.title, a.outcome, a.start, a.seconds)
         for label, (run, _) in found.items()
         for a in run.report.actions
@@ -292,7 +292,7 @@ def climb_two_steps() -> StudyResult:
     """Body x and y over time, with the actions' numbers."""
     found = _facts()
     facts = found[PRINTED][1]
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (label, title, *(round(value * MILLI, 2) for value in sway))
         for label, (_, one) in found.items()
         for title, sway in one.sways.items()

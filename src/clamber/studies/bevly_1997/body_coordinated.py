@@ -12,7 +12,7 @@ from ...families.climber.trials.body_entries import COORDINATED, read_gains
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...types import Floats
 from ...viewing.study_lines_plot import Points, draw_panels
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI
 from .body_entries import EARLIER, PEG_ERROR, PLANT, TABLE_4_1
 from .limb_entries import SCCT
@@ -151,7 +151,7 @@ def _second(run: BodyRun) -> float | None:
     return most if np.isfinite(most) else None
 
 
-def _row(way: tuple[str, str], run: BodyRun) -> tuple[Value, ...]:
+def _row(way: tuple[str, str], run: BodyRun) -> Cells:
     x, y, turned = (float(value) if np.isfinite(value) else None for value in _end(run))
     return (
         *way, "on" if run.trace.unhooked_at is None else f"off after {run.trace.unhooked_at:.2f} s",

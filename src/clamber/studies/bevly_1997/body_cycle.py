@@ -12,7 +12,7 @@ from ...families.climber.sim.climber_model import HookShape
 from ...families.climber.trials.body_bench import BodyEntry, run_body
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...sim.limb_flaws import LimbFlaws
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1
 from .limb_entries import SCCT
@@ -105,7 +105,7 @@ def sweep_stiffness() -> StudyResult:
     by_backlash = bound("on hooks", "one hook", worst, "no") < bound("on hooks", "one hook", 0.0, "no")
     by_play = bound("on hooks", "one hook", 0.0, "3 mm") < bound("on hooks", "one hook", 0.0, "no")
     swaying = {case: find_end(found) for case, found in swings.items()}
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (*case, onsets[case] or f"none to {GAINS[-1]:.3g}", *(round(swing, 2) for swing in found))
         for case, found in swings.items()
     ]

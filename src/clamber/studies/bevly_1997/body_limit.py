@@ -13,7 +13,7 @@ from ...families.climber.execution.climb_trace import ClimbTrace
 from ...families.climber.pictures.pictures import draw_heights
 from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs, watch_rung
 from ...jobs import LocalProcesses
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Value, Verdict
 from . import MILLI
 from .body_entries import OURS, OWN, PLANT, TABLE_4_1
 
@@ -107,7 +107,7 @@ def _rung_numbers(trial: RungTrial, trace: ClimbTrace) -> dict[str, Value]:
 
 
 def _table(noisy: Mapping[str, Sequence[RungTrial]]) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for label, trials in noisy.items():
         reasons = Counter("climbed" if trial.done else trial.reason.split(":")[0] for trial in trials)
         ends = "; ".join(f"{reason} ({count})" for reason, count in reasons.most_common())

@@ -8,7 +8,7 @@ from ...families.climber.pictures.body_plots import draw_body_circles, draw_body
 from ...families.climber.trials.body_bench import BodyEntry, BodyMeasures, BodyRun, measure_body, run_bodies
 from ...families.climber.trials.body_stand import BodyScenario, bench_flaws, circle, ladder_stand, push_up
 from ...limb_bench.entries import Match
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .body_entries import BIASED, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1, rivals, scct_and_transposes
 from .limb_entries import MATCHED, SCCT, judged, transpose
@@ -32,7 +32,7 @@ def lead_body() -> StudyResult:
     stand = ladder_stand(fixed=True, below=RADIUS)
     entries = [*scct_and_transposes(stand, CIRCLE_REFERENCE), *rivals(stand, CIRCLE_REFERENCE), BodyEntry(OWN, OURS)]
     kept: dict[str, tuple[BodyScenario, list[BodyRun]]] = {}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     rms: dict[tuple[str, float, str], float] = {}
     for plant in PLANTS:
         flaws = bench_flaws(plant)
@@ -105,7 +105,7 @@ def push_body_up() -> StudyResult:
     entries = [*scct_and_transposes(stand, TABLE_4_1), *rivals(stand, TABLE_4_1), *beside]
     kept: dict[str, list[BodyRun]] = {}
     told: dict[tuple[str, str], BodyMeasures] = {}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for plant in PLANTS:
         flaws = bench_flaws(plant)
         scenario = push_up(stand.pose, flaws.period, height=HEIGHT, seconds=SECONDS)

@@ -19,7 +19,7 @@ from ...families.climber.trials.body_bench import (
 from ...families.climber.trials.body_entries import body_stiffness
 from ...families.climber.trials.body_stand import BodyStand, bench_flaws, ladder_stand, push
 from ...sim.limb_flaws import LimbFlaws
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .body_entries import BIASED, EARLIER, JOINT_PD, OUR_ALPHA, OURS, OWN, PLANT, TABLE_4_1, rivals
 from .limb_entries import SCCT
@@ -134,7 +134,7 @@ def _mean(trials: list[PushTrial]) -> float | None:
 
 
 def _table(trials: dict[str, list[PushTrial]]) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for label, told in trials.items():
         ways = [trial.measures.x_max * MILLI for trial in told if trial.measures.unhooked_at is None]
         off = max(trial.measures.off_max for trial in told) * MILLI

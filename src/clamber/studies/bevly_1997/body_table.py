@@ -13,7 +13,7 @@ from ...families.climber.trials.body_entries import COORDINATED, read_gains
 from ...families.climber.trials.body_rung import FRICTION, PEG_ERROR, WEIGHT, RungTrial, climb_rungs
 from ...families.climber.trials.body_stand import ladder_stand
 from ...jobs import Executor, LocalProcesses
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from .body_entries import EARLIER, JOINT_PD, OURS, PLANT, TABLE_4_1
 
 SEEDS: Final = 12
@@ -171,7 +171,7 @@ def _mean(trials: list[RungTrial]) -> float | None:
 
 
 def _table(told: dict[str, list[RungTrial]]) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for label, trials in told.items():
         reasons = Counter("climbed" if trial.done else trial.reason[:REASON] for trial in trials)
         lost = sum(trial.lost for trial in trials)

@@ -14,7 +14,7 @@ from ...planning.genetic.profile import load_profile
 from ...planning.result import PlanResult
 from ...types import Floats
 from ...viewing.plan_curves import draw_history
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from .modified_ladder import HELD_OFFSET, OWN_HALVES
 from .printed_plans import INFERRED, limbed_task
 from .search_variants import WEIGHTS
@@ -91,7 +91,7 @@ def follow_modified_ladder() -> StudyResult:
     task = limbed_task("modified-ladder", (OWN_HALVES, HELD_OFFSET))
     climbs = _climbs(task, FRESH)
     curves = [Curve.of(_fitness(climb.history)) for climb in climbs]
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (
             seed, climb.status, curve.generations, curve.passed, f"{curve.flat[0]} to {curve.flat[1]}",
             *((curve.before, curve.after) if curve.passed is not None else (None, None)),
@@ -149,7 +149,7 @@ def follow_modified_ladder() -> StudyResult:
 def follow_h() -> StudyResult:
     """Slope of the fitness around the sub-goals of H against the slope elsewhere, over many seeds."""
     task = limbed_task("h")
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     climbs = _climbs(task)
     for seed, climb in zip(SEEDS, climbs, strict=True):
         gains = np.diff(_fitness(climb.history))
@@ -204,11 +204,11 @@ def _flat_below(curve: Curve) -> bool:
     return curve.passed is not None and curve.flat[1] <= curve.passed
 
 
-def _median(rows: Sequence[tuple[Value, ...]], column: int) -> float | None:
+def _median(rows: Sequence[Cells], column: int) -> float | None:
     values = [value for row in rows if isinstance(value := row[column], int | float)]
     return median(values) if values else None
 
 
-def _ratios(rows: Sequence[tuple[Value, ...]], upper: int, lower: int) -> list[float]:
+def _ratios(rows: Sequence[Cells], upper: int, lower: int) -> list[float]:
     pairs = [(row[upper], row[lower]) for row in rows]
     return [a / b for a, b in pairs if isinstance(a, float) and isinstance(b, float) and b > 0.0]

@@ -14,7 +14,7 @@ from ...planning.problem.problem import CompiledProblem, Records
 from ...planning.problem.problems import pose_problem
 from ...types import Ints
 from ...units import INCH
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from .modified_ladder import NO_HANGS, exhaust
 from .printed_plans import INFERRED, limbed_task
 from .search_variants import WEIGHTS, median_evaluations
@@ -126,7 +126,7 @@ def plan_with_modules_alone() -> StudyResult:
     )
     actions = exhaust(modified)
     words: dict[bool | None, str] = {True: "yes", False: "no, every sequence looked at", None: "cut short"}
-    rows: tuple[tuple[Value, ...], ...] = tuple(
+    rows: tuple[Cells, ...] = tuple(
         (macro.name, len(macro.codes), macro.gain / INCH, macro.from_start) for macro in lesson.macros
     )
     return StudyResult(

@@ -10,7 +10,7 @@ from ...control.controller import Controller, still_aim
 from ...control.law_settings import LawSettings
 from ...limb_bench.stability import loop_matrix
 from ...sim.bench_limb import BenchLimb
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from .limb_entries import GAINS, PLANT, SMOOTH, leg_1, scct
 
 SOFTER: Final = 10.0
@@ -49,7 +49,7 @@ def judge_identity(without: float, kept: float) -> Verdict:
 
 def damp_directions() -> StudyResult:
     """Damping ratios of a stiff y and a soft x under resolved rate with every joint servo, and under SCCT."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     rate: list[tuple[float, float]] = []
     direct: list[tuple[float, float]] = []
     for branch, limb in leg_1().items():

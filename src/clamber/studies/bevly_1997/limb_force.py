@@ -10,7 +10,7 @@ from ...limb_bench.scenario import ForceTask
 from ...sim.bench_limb import BenchLimb
 from ...units import DEGREE
 from ...viewing.study_lines_plot import Points, draw_panels
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI
 from .limb_entries import IDEAL, PLANT, leg_1
 
@@ -113,7 +113,7 @@ def _press(limb: BenchLimb, law: str, case: str, angle: float) -> ForceResult:
     return run_force(limb, task, force_entries(limb, task, IDEAL, [law], ["model"]), IDEAL)
 
 
-def _row(law: str, case: str, pressed: tuple[float, Pressed]) -> tuple[Value, ...]:
+def _row(law: str, case: str, pressed: tuple[float, Pressed]) -> Cells:
     angle, one = pressed
     return law, case, angle, "yes" if one.held else "no", one.force, one.along * MILLI
 

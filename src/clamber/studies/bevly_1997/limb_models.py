@@ -15,7 +15,7 @@ from ...sim.limb_flaws import LimbFlaws
 from ...sim.plants import plant_maker
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .limb_entries import IDEAL
 
@@ -152,7 +152,7 @@ COLUMNS: Final = (
 )
 
 
-def _row(d: JointDrive) -> tuple[Value, ...]:
+def _row(d: JointDrive) -> Cells:
     angle, speed = d.curves[SIMPLE]
     mean = float(speed.mean())
     return (

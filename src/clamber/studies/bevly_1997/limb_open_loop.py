@@ -10,7 +10,7 @@ from ...limb_bench.pictures.force import Drawn, draw_open_loop, draw_turns
 from ...sim.bench_limb import BenchLimb
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .limb_entries import BRANCHES, IDEAL, PLANT, SMOOTH, leg_1
 
@@ -59,7 +59,7 @@ Key = tuple[str, str, str, float]
 """Friction, branch, transform, force."""
 
 
-def _row(key: Key, run: OpenLoopRun) -> tuple[Value, ...]:
+def _row(key: Key, run: OpenLoopRun) -> Cells:
     friction, branch, transform, force = key
     strays = tuple(None if stray is None else stray * MILLI for stray in map(run.stray, FAR))
     off, torques = _degrees(run.turned()), ", ".join(f"{round(float(torque), 3) + 0.0:.3f}" for torque in run.torques)

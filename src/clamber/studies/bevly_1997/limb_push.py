@@ -15,7 +15,7 @@ from ...sim.bench_limb import BenchLimb
 from ...sim.limb_flaws import LimbFlaws
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .limb_entries import (
     BASELINES,
@@ -128,7 +128,7 @@ class Pushed:
         self.past = max(0.0, -float(self.off[after, 0].min()))
         self.x_left, self.y_left = (float(value) for value in self.off[-1])
 
-    def row(self) -> tuple[Value, ...]:
+    def row(self) -> Cells:
         """For the table."""
         back = "not within the run" if self.back is None else self.back
         return self.x, self.y_during, self.y, self.y_after, back, self.past, self.x_left, self.y_left
@@ -143,7 +143,7 @@ TOLD: Final = (SCCT, *(transpose(match) for match in (*MATCHED, "none")), *BASEL
 def push_and_release() -> StudyResult:
     """A steady push along the soft direction, with every law, on both branches, with and without Coulomb friction."""
     kept: dict[str, list[Run]] = {}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     seen: Seen = {}
     limbs = leg_1()
     for friction, flaws in (("Table 3.1", IDEAL), ("none", SMOOTH)):

@@ -13,7 +13,7 @@ from ...limb_bench.pictures.study import draw_circles, draw_radial_errors, draw_
 from ...limb_bench.runner import run_contest
 from ...limb_bench.scenario import Scenario, circle_scenario, step_scenario
 from ...types import Floats
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import MILLI
 from .limb_entries import (
     BASELINES,
@@ -52,7 +52,7 @@ def off_line(run: Run) -> float:
     return float(np.abs(run.trace.true_places()[:, 0, 0] - CENTRE[0]).max()) * MILLI
 
 
-def _row(friction: str, branch: str, run: Run) -> tuple[Value, ...]:
+def _row(friction: str, branch: str, run: Run) -> Cells:
     y = run.trace.true_places()[:, 0, 1] * MILLI
     past = max(0.0, -STEP * MILLI - float(y.min()))
     return friction, branch, run.entry.label, *gains_shown(run.entry.settings), off_line(run), float(y[-1]), past
@@ -67,7 +67,7 @@ def step_response(result: str, plant: str) -> StudyResult:
     """
     limbs = leg_1()
     kept: dict[str, list[Run]] = {}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for friction, flaws in (("Table 3.1", IDEAL), ("none", SMOOTH)):
         for branch, limb in limbs.items():
             scenario = step_scenario(limb, flaws.control_rate, dy=-STEP, seconds=SECONDS)
@@ -184,7 +184,7 @@ SHOWN: Final = (SCCT, *(transpose(match) for match in MATCHED), SOFT_TRANSPOSE, 
 def track_circle() -> StudyResult:
     """Two laps of the circle with every law at both speeds, on both elbow branches; the second lap counts."""
     kept: dict[float, list[Run]] = {}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     rms: Errors = {}
     centres = leg_1()
     for lap in LAPS:

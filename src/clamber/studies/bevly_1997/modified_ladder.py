@@ -11,7 +11,7 @@ from ...planning.problem.problems import plan_family, pose_problem
 from ...types import Ints
 from ...units import INCH
 from ...viewing.pictures import draw_route
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from .printed_plans import INFERRED, limbed_task, replay_printed
 
 OWN_HALVES: Final = 'rules.keep=[{limb="right",x_min="9in"},{limb="left",x_max="9in"}]'
@@ -97,7 +97,7 @@ def rotation_is_needed() -> StudyResult:
 
 def rotation_is_not_needed() -> StudyResult:
     """Which of the unsaid rules the claim rests on, and a plan without rotation where they are off."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for support in ("strict", "atomic"):
         for chosen in product(*(((), (rule,)) for rule in (OWN_HALVES, HELD_OFFSET))):
             rules = (*(rule for part in chosen for rule in part), NO_HANGS)
@@ -150,7 +150,7 @@ STEPS: Final = (6, 3, 2, 1)
 
 def vary_step_size() -> StudyResult:
     """Search every stance of the modified ladder, rotation allowed, for each step length and both readings."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     lengths: dict[tuple[str, int], int | None] = {}
     for rules in (OWN, (NO_HANGS,)):
         for step in STEPS:

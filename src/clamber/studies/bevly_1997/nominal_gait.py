@@ -10,7 +10,7 @@ from ...planning.problem.problem import Replay
 from ...planning.problem.problems import plan_family
 from ...units import INCH, OZ_IN
 from ...viewing.pictures import draw_route
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from .printed_plans import INFERRED, limbed_task, replay_printed
 
 GAIT: Final = (191, 392, 291, 300, 3)
@@ -35,7 +35,7 @@ def repeat_gait(length: int, support: str) -> tuple[LimbedTask, Replay, int | No
 
 def climb_with_gait() -> StudyResult:
     """How far the gait climbs, by step length and by what is checked while a leg swings."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for support in ("atomic", "strict"):
         for length in STEPS:
             task, replay, met = repeat_gait(length, support)

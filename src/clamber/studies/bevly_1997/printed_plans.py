@@ -15,7 +15,7 @@ from ...tasks import load_task
 from ...units import DEGREE, INCH, OZ_IN
 from ...viewing.pictures import draw_route, draw_stance
 from ...viewing.plan_curves import draw_torques
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 
 H_START: Final = ("start.y=6.2in",)
 """The start that the printed pegs of Table 2.4 fit best."""
@@ -281,7 +281,7 @@ PLANS: Final[dict[str, tuple[str, tuple[str, ...]]]] = {
 
 def check_hooks() -> StudyResult:
     """Count the steps that no force split could carry if hooks can only pull."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     after = 0
     for label, (name, overrides) in PLANS.items():
         counts = []

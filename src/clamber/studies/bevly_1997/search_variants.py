@@ -12,7 +12,7 @@ from ...families.climber.planning.inventory import full_inventory, make_inventor
 from ...planning.genetic.profile import load_profile
 from ...planning.problem.codes import Code
 from ...trials.measured import median_or_nothing
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from .printed_plans import INFERRED, limbed_task
 
 PEGS = 30
@@ -129,7 +129,7 @@ def compare_crossovers() -> StudyResult:
             search = varied(profile, {"crossover": kind})
             told[kind, name] = run_trials(limbed_task(name), search, CROSSED, max_evaluations=BUDGET)
     duels = {rival: [fight(told["tail", name], told[rival, name]) for name in TASKS] for rival in RIVALS}
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for (kind, name), trials in told.items():
         won, lost = (None, None) if kind == "tail" else duels[kind][TASKS.index(name)]
         rows.append((name, kind, trials.found, len(CROSSED), median_evaluations(trials), won, lost))
@@ -179,7 +179,7 @@ def compare_crossovers() -> StudyResult:
 def compare_subgoals() -> StudyResult:
     """The search with the sub-goals of H, across and circle, and with the goal alone."""
     profile = load_profile("thesis")
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     counts: list[tuple[int, int]] = []
     for name in WITH_SUBGOALS:
         guided, alone = (
@@ -240,7 +240,7 @@ def judge_planner(found: Mapping[str, int], seeds: int) -> Verdict:
 def count_successes() -> StudyResult:
     """Seeds of the profile "thesis" that find a plan, on every task."""
     profile = load_profile("thesis")
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     found: dict[str, int] = {}
     for name in TASKS:
         trials = run_trials(limbed_task(name), profile, SEEDS, max_evaluations=SUCCESS_BUDGET)

@@ -11,7 +11,7 @@ from ...control.quintic import quintic_share
 from ...families.climber.pictures.geometry import joint_angles, limb_chain
 from ...families.climber.robot.robot import LimbedRobot
 from ...types import Floats
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from .printed_plans import INFERRED, PLANS, replay_printed
 
 SEVERAL: Final = 3
@@ -76,7 +76,7 @@ def judge_push_pull(splits: list[Split]) -> Verdict:
 
 def compare_push_pull() -> StudyResult:
     """The three splits in every push-pull configuration of the printed plans."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     splits: dict[tuple[float, ...], Split] = {}
     for label, (name, overrides) in PLANS.items():
         replayed = replay_printed(name, overrides)
@@ -155,7 +155,7 @@ def judge_static(ratios: Sequence[float]) -> Verdict:
 
 def compare_torques() -> StudyResult:
     """Largest static and dynamic torques of every body move of two printed plans."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for label, name in MOVED.items():
         replayed = replay_printed(name)
         task, stances = replayed.task, replayed.replay.stances

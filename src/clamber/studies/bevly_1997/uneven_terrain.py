@@ -22,7 +22,7 @@ from ...planning.problem.plan import Plan
 from ...trials.trial_runs import ERROR, run_trials
 from ...types import Floats
 from ...viewing.study_lines_plot import Points, draw_panels
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from . import MILLI
 from .body_climb import gait_plan
 from .body_entries import PLANT
@@ -128,7 +128,7 @@ def _pushes(trials: list[ClimbTrial]) -> float | None:
     return sum(trial.pushes for trial in trials) / grabs if grabs else None
 
 
-def _row(name: str, trials: list[ClimbTrial]) -> tuple[Value, ...]:
+def _row(name: str, trials: list[ClimbTrial]) -> Cells:
     ends = Counter("done" if trial.done else f"step {trial.step}: {trial.reason[:60]}" for trial in trials)
     times = [trial.seconds for trial in trials if trial.done]
     words = "; ".join(f"{end} ({count})" for end, count in ends.most_common(4))

@@ -10,7 +10,7 @@ from ...jobs import read_result
 from ...planning.problem.problems import pose_problem
 from ...types import Json
 from ..bevly_1997.printed_plans import limbed_task
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from .proofs import BOARDS, HARD_HOOKS, KEPT, MODEL, NEVER_HANGS, TOLD, Proof, cone, prove, prove_all, run_all
 
 CONES: Final = (90.0, 75.0, 60.0)
@@ -57,7 +57,7 @@ def compare_hooks() -> StudyResult:
     }
     items: list[Json] = [{"name": board, "overrides": chosen} for board in BOARDS for chosen in rules.values()]
     proofs = prove_all(items)
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for k, board in enumerate(BOARDS):
         mine = proofs[len(rules) * k : len(rules) * (k + 1)]
         lengths = [proof.length for proof in mine]
@@ -134,7 +134,7 @@ def narrow_cones() -> StudyResult:
     )  # fmt: skip
 
 
-def _row(board: str, proofs: dict[float, Proof]) -> tuple[Value, ...]:
+def _row(board: str, proofs: dict[float, Proof]) -> Cells:
     least = min(degrees for degrees, proof in proofs.items() if proof.feasible)
     below = max(degrees for degrees, proof in proofs.items() if not proof.feasible)
     plan, none = proofs[least], proofs[below]

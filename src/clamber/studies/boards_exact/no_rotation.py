@@ -15,7 +15,7 @@ from ...planning.problem.verdict import check_plan
 from ...units import INCH
 from ..bevly_1997.modified_ladder import HELD_OFFSET, OWN_HALVES, WITHOUT_TURNS
 from ..bevly_1997.printed_plans import limbed_task
-from ..result import Compared, StudyResult, Table, Value
+from ..result import Cells, Compared, StudyResult, Table
 from .proofs import MODEL, TOLD, Proof, prove
 
 READINGS: Final = {
@@ -35,7 +35,7 @@ SEEDS: Final = range(5)
 
 def forbid_rotation(most: int = MOST_WITH_A_HANG, seeds: range = SEEDS, beams: tuple[Beam, ...] = BEAMS) -> StudyResult:
     """Exact search in four readings, without hangs and with one; where one is allowed by stances, seeds of the genetic search, beams."""
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     proofs: dict[str, Proof] = {}
     for words, rules in READINGS.items():
         never = proofs[words] = prove("modified-ladder", (*MODEL, *rules, WITHOUT_TURNS))

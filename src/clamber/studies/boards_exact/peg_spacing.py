@@ -9,7 +9,7 @@ from ...types import Json
 from ...units import INCH
 from ...viewing.sweep_plot import draw_sweep
 from ..bevly_1997.printed_plans import limbed_task
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from .proofs import CORES, MODEL, NEVER_HANGS, TOLD, prove_all
 
 ACROSS: Final = "board.spacing=12in..26in:15"
@@ -111,7 +111,7 @@ def _lift(swept: Sweep) -> Sweep:
 
 
 def _table(swept: Sweep, lifted: Sweep) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for k, (point, other) in enumerate(zip(swept.points, lifted.points, strict=True)):
         across, up = _place(point.values)
         marked = "stated" if swept.marked(k) else None

@@ -18,7 +18,7 @@ from ...types import Json
 from ...units import OZ_IN
 from ...viewing.pictures import draw_route
 from ..bevly_1997.printed_plans import H_START, limbed_task, replay_printed
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table, Value
 
 BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
 MODEL: Final = (
@@ -193,7 +193,7 @@ def prove_optima() -> StudyResult:
     items += [{"name": "ladder", "overrides": COARSE}, {"name": "h", "overrides": BARE_H}]
     proofs = prove_all(items)
     *_, ladder, bare = proofs
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     by_board: dict[str, tuple[Proof, ...]] = {}
     for k, board in enumerate(BOARDS):
         short, gentle, easy = by_board[board] = tuple(proofs[len(ORDERS) * k : len(ORDERS) * (k + 1)])

@@ -16,7 +16,7 @@ from ...types import Json
 from ...units import DEGREE, INCH, OZ_IN
 from ...viewing.plan_curves import draw_front
 from ..bevly_1997.printed_plans import limbed_task
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from .proofs import BOARDS, MODEL, NEVER_HANGS, TOLD, Proof, prove, prove_all, run_all
 
 MOVES: Final = 'rules.allowed=["+x","-x","+y","-y","+theta","-theta"]'
@@ -147,7 +147,7 @@ def trade_length_for_torque() -> StudyResult:
     task = limbed_task(BOARD, MODEL)
     front = plan_front(task, ("length", "torque"), threads=1)
     verdicts = [check_plan(task, trade.plan) for trade in front.trades]
-    rows: tuple[tuple[Value, ...], ...] = tuple(
+    rows: tuple[Cells, ...] = tuple(
         (
             trade.length,
             trade.costs["torque"] / OZ_IN,
@@ -247,7 +247,7 @@ def find_least_torques() -> StudyResult:
     )  # fmt: skip
 
 
-def _torque_row(board: str, fixed: Proof, calm: Calm, above: Proof, below: Proof) -> tuple[Value, ...]:
+def _torque_row(board: str, fixed: Proof, calm: Calm, above: Proof, below: Proof) -> Cells:
     start = calm.proof.load().start
     degrees = (start.theta / DEGREE + 180.0) % 360.0 - 180.0
     return (

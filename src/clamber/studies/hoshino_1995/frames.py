@@ -19,7 +19,7 @@ from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import best_directions, workspace
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import CALIBRATED, SIGNS
 from .walker import ANGLES, CM2, MM, hoshino
 
@@ -86,7 +86,7 @@ def _deviations(frames: TwoFrames, curve: Floats) -> tuple[str, ...]:
 
 
 def _table(frames: TwoFrames) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for theta in SHOWN:
         steps = (best_directions(frames, theta * DEGREE, guard=guard)[1] * MM for guard in (None, frames.guard))
         parts = len(workspace(frames, theta * DEGREE).parts)

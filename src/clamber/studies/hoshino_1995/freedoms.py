@@ -13,7 +13,7 @@ from ...families.walker.control.cooperative.settings import Cooperation, Form, o
 from ...families.walker.control.cooperative.tool_chain import POSE
 from ...families.walker.pictures.tool_plots import Motion, draw_freedoms, draw_gains, draw_motions
 from ...types import Floats
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from .tool_runs import BALANCED, CHOSEN, DOFS, GAINS, RUNS, START, TOOL_SPEEDS, ToolRun, go, random_case
 from .walker import hoshino
 
@@ -127,7 +127,7 @@ def _compare(motions: Motions) -> tuple[Compared, ...]:
 
 
 def _table(motions: Motions) -> Table:
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for title, runs in (("equation 19", motions.free), ("with every limit", motions.kept)):
         for dof, run in runs.items():
             rows.append((title, dof, 1e3 * run.off_end, float(run.measure.mean()), *map(float, run.q[-1])))
@@ -193,7 +193,7 @@ def check_second_term() -> StudyResult:
             for dof in DOFS:
                 weights = weights_of(freedoms_of(dof, 4), 4)
                 falls[title, form, dof] = _falls(law, postures, weights)
-    rows: tuple[tuple[Value, ...], ...] = tuple((*key, part) for key, part in falls.items())
+    rows: tuple[Cells, ...] = tuple((*key, part) for key, part in falls.items())
     right = [part for (_, form, _), part in falls.items() if form == "right"]
     printed = [part for (_, form, _), part in falls.items() if form == "as printed"]
     return StudyResult(
@@ -242,7 +242,7 @@ def vary_gain() -> StudyResult:
     printed = _means(10, "as printed")
     instants = _instants(list(usual.values()))
     ordered = {dof: _rising(values) for dof, values in means.items()}
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (seed, dof, *map(float, values[seed])) for dof, values in means.items() for seed in range(RUNS)
     ]
     return StudyResult(
@@ -329,7 +329,7 @@ def count_freedoms() -> StudyResult:
         for g, gain in enumerate(GAINS)
         for a, b in ((4, 5), (5, 7), (7, 10), (4, 10))
     }
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (gain, seed, *map(float, means[g, seed])) for g, gain in enumerate(GAINS) for seed in range(RUNS)
     ]
     return StudyResult(

@@ -18,7 +18,7 @@ from ...families.walker.trials.noise import WalkNoise, named_walk_noise
 from ...families.walker.trials.run_walk import WalkRun
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, Figure, StudyResult, Table, Value
+from ..result import Cells, Compared, Figure, StudyResult, Table
 from . import CAPTIONS, SIMULATED
 from .walker import MM, hoshino, known_noise, run_changed
 
@@ -189,7 +189,7 @@ def _word(legs: int) -> str:
     return {3: "three", 6: "six"}[legs]
 
 
-def _rows(legs: int, run: Inclining) -> list[tuple[Value, ...]]:
+def _rows(legs: int, run: Inclining) -> list[Cells]:
     wants = (*((direction, ANGLE) for direction in DIRECTIONS), (0, 0.0))
     columns = zip(wants, run.arrives - run.begins, run.read_errors(), run.true_errors(), strict=True)
     return [(legs, *want, float(took), float(a) / DEGREE, float(b) / DEGREE) for want, took, a, b in columns]
@@ -216,7 +216,7 @@ def walk_level() -> StudyResult:
     tilted = {name: _walk(uphill, known_noise(), "level=false", "start.plate=ground") for name, uphill in WAYS.items()}
     ends = all(run.done for run in level.values())
     rests = max(_at_rest(run) for run in level.values())
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (name, "level" if kept is level else "as the slope", *_row(run))
         for kept in (level, tilted)
         for name, run in kept.items()
@@ -274,7 +274,7 @@ def _margin(run: WalkRun) -> float | None:
     return float(margins.min()) * MM if len(margins) else None
 
 
-def _row(run: WalkRun) -> tuple[Value, ...]:
+def _row(run: WalkRun) -> Cells:
     rests = _at_rest(run)
     return (
         _yes(run.done), run.tilt / DEGREE, rests if np.isfinite(rests) else None, _margin(run), len(run.report.steps),
@@ -375,7 +375,7 @@ def _between(a: Floats, b: Floats) -> Floats:
     return off
 
 
-def _direction_row(beta: float, gamma: float) -> tuple[Value, ...]:
+def _direction_row(beta: float, gamma: float) -> Cells:
     eta, xi = slope_of(beta * DEGREE, gamma * DEGREE)
     printed = None if beta == 0.0 else round(equation_6(beta * DEGREE, gamma * DEGREE) / DEGREE, 4)
     return beta, gamma, round(eta / DEGREE, 4), round(xi / DEGREE, 4), printed

@@ -13,7 +13,7 @@ from ...families.walker.robot.turning import turning_range
 from ...families.walker.robot.workspace import best_directions, stride
 from ...types import Floats
 from ...units import DEGREE
-from ..result import Compared, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, StudyResult, Table, Verdict
 from . import CALIBRATED, SIGNS
 from .walker import MM, hoshino
 
@@ -168,7 +168,7 @@ def _compare(cycle: Cycle) -> tuple[Compared, ...]:
 def _table() -> Table:
     mechanism = hoshino().mechanism
     frames = TwoFrames.of(mechanism)
-    rows: list[tuple[Value, ...]] = []
+    rows: list[Cells] = []
     for theta in TURNS:
         best, length = best_directions(frames, theta * DEGREE)
         by_sixty = sorted({round(angle / DEGREE % 60.0, 2) % 60.0 for angle in best})

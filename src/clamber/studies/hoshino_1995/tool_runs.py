@@ -15,7 +15,7 @@ from ...families.walker.pictures.tool_plots import draw_follow
 from ...families.walker.trials.cooperative.follow import FollowOptions, FollowRun, follow_path
 from ...families.walker.trials.cooperative.tool_path import ToolPath
 from ...types import Floats
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Verdict
 from . import SIMULATED
 from .walker import MM, hoshino
 
@@ -175,7 +175,7 @@ def follow_in_dynamics() -> StudyResult:
 
     moved = {dof: follow(dof, dynamics=False) for dof in FOLLOWED_DOFS}
     real = {dof: follow(dof, dynamics=True) for dof in FOLLOWED_DOFS}
-    rows: tuple[tuple[Value, ...], ...] = tuple(
+    rows: tuple[Cells, ...] = tuple(
         (dof, title, run.off_end * MM, _most(run) * MM, float(np.sqrt(np.mean(run.errors**2))) * MM, run.reason)
         for title, runs in (("motion", moved), ("contact dynamics", real))
         for dof, run in runs.items()

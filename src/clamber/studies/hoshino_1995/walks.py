@@ -15,7 +15,7 @@ from ...families.walker.trials.max_setting import Most, Tried, find_most
 from ...families.walker.trials.run_walk import WalkRun
 from ...units import DEGREE
 from ...viewing.pictures import draw_run
-from ..result import Compared, Figure, StudyResult, Table, Value, Verdict
+from ..result import Cells, Compared, Figure, StudyResult, Table, Value, Verdict
 from . import SIMULATED
 from .walker import MM, hoshino, known_noise, run_changed
 
@@ -67,7 +67,7 @@ def walk_everywhere(directions: tuple[int, ...] = DIRECTIONS) -> StudyResult:
     }
     walks = {direction: strayed(run, direction * DEGREE, 0.0, None) for direction, run in runs.items()}
     frames = TwoFrames.of(hoshino().mechanism)
-    rows: tuple[tuple[Value, ...], ...] = tuple(
+    rows: tuple[Cells, ...] = tuple(
         (
             direction,
             stride(frames, 0.0, direction * DEGREE).length * MM,
@@ -138,7 +138,7 @@ def turn_anywhere(centres: tuple[tuple[float, float], ...] = CENTRES) -> StudyRe
     spans = {
         centre: turning_range(frames, (0.0, 0.0, 0.0), about=centre, guard=guard).span / DEGREE for centre in centres
     }
-    rows: tuple[tuple[Value, ...], ...] = tuple(
+    rows: tuple[Cells, ...] = tuple(
         (
             f"{x:g}, {y:g}",
             spans[x, y],
@@ -255,7 +255,7 @@ def pass_steps() -> StudyResult:
         [f"{height} mm" for height in SINGLE],
         lambda value: Tried.of(value, _step_walk(((0.6, float(value.split()[0])),), AHEAD, 0)),
     )
-    rows: list[tuple[Value, ...]] = [
+    rows: list[Cells] = [
         (*_row(walk), runs[seed].report.kicks, len(runs[seed].report.steps)) for seed, walk in walks.items()
     ]
     rows += [(*_row(tried), None, None) for tried in most.tried]
@@ -307,7 +307,7 @@ def _step_walk(levels: Sequence[tuple[float, float]], distance: float, seed: int
     return run_changed("step-walk", changes, known_noise(), seed)
 
 
-def _row(tried: Tried) -> tuple[Value, ...]:
+def _row(tried: Tried) -> Cells:
     margin = None if tried.margin is None else tried.margin * MM
     return tried.value, "yes" if tried.borne else "no", margin, tried.tilt / DEGREE, tried.reason
 
