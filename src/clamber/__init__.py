@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from .api.planning import load_plan as load_plan
     from .api.planning import plan as plan
     from .api.running import run as run
-    from .api.trying import trials as trials
-    from .api.trying import validate as validate
+    from .api.running import trials as trials
+    from .api.running import validate as validate
     from .api.viewing import view as view
     from .errors import ClamberError as ClamberError
     from .families.climber.world.library import load_board as load_board
@@ -66,8 +66,8 @@ _PLACES = {
     "reach": "api.mapping",
     "run": "api.running",
     "sweep": "api.mapping",
-    "trials": "api.trying",
-    "validate": "api.trying",
+    "trials": "api.running",
+    "validate": "api.running",
     "view": "api.viewing",
 }
 
