@@ -19,10 +19,10 @@ def _printed(letter: str) -> str:
     return letter if shown else letter.encode("unicode_escape", "backslashreplace").decode("ascii")
 
 
-def near_matches(name: str, known: Iterable[str], limit: int = 3) -> list[str]:
-    """The known names most like `name`, best first; empty when none is like it."""
+def near_matches(name: str, known: Iterable[str]) -> list[str]:
+    """At most three known names like `name`, best first; empty when none is like it."""
     by_lower = {word.lower(): word for word in known}
-    return [by_lower[word] for word in difflib.get_close_matches(name.lower(), by_lower, n=limit, cutoff=0.6)]
+    return [by_lower[word] for word in difflib.get_close_matches(name.lower(), by_lower, n=3, cutoff=0.6)]
 
 
 def describe_choices(name: str, known: Iterable[str], limit: int = 40) -> str:

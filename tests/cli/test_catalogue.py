@@ -14,7 +14,7 @@ from clamber.planning.problem.plan_source import plan_names
 from clamber.sim.plants import PLANTS
 from clamber.tasks import task_names
 from clamber.tasks.robots import robot_names
-from clamber.terminal.catalogue import PLANT_TITLES, entries
+from clamber.terminal.catalogue import ENTRIES, PLANT_TITLES
 
 
 def first_line(thing: object) -> str:
@@ -22,7 +22,7 @@ def first_line(thing: object) -> str:
 
 
 def names(kind: str) -> tuple[str, ...]:
-    return tuple(name for name, _ in entries(kind))
+    return tuple(name for name, _ in ENTRIES[kind]())
 
 
 def test_data_are_listed_as_their_libraries_know_them() -> None:

@@ -6,7 +6,7 @@ import tempfile
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from statistics import fmean
 from typing import Final
@@ -52,14 +52,14 @@ class ScalingLaw:
         """Share of linear speed-up, the start included: one core's bare work over what all cores were there for [-]."""
         return item * items / (cores * self.seconds(item, items, cores))
 
-    def shortest_item(self, items: int, cores: int, good: float = GOOD) -> float:
-        """Least time of an item [s] at which so many cores reach an efficiency; infinite where no item is long enough."""
+    def shortest_item(self, items: int, cores: int) -> float:
+        """Least time of an item [s] at which so many cores are `GOOD`; infinite where no item is long enough."""
         low, high = 1e-6, 1e6
-        if self.efficiency(high, items, cores) < good:
+        if self.efficiency(high, items, cores) < GOOD:
             return float("inf")
         while high / low > 1.001:
             middle = (low * high) ** 0.5
-            low, high = (low, middle) if self.efficiency(middle, items, cores) >= good else (middle, high)
+            low, high = (low, middle) if self.efficiency(middle, items, cores) >= GOOD else (middle, high)
         return high
 
 
@@ -75,13 +75,14 @@ def timed_point(item: Json) -> Json:
 
     Args:
         item: `point` as a sweep has it, and `warm`, another one as JSON text, to load the kernels with.
-
-    Returns:
-        The process, when it was ready, and what the point took by the clock and by the processor [s].
     """
-    ready = _ready(item["warm"])
+    return timed(_ready(item["warm"]), partial(plan_point, item["point"]))
+
+
+def timed(ready: float, work: Callable[[], object]) -> Json:
+    """This process, when it was ready, and what some work took by the clock and by the processor [s]."""
     started, worked = time.monotonic(), time.process_time()
-    plan_point(item["point"])
+    work()
     ended = time.monotonic() - started
     return {"process": os.getpid(), "ready": ready, "seconds": ended, "cpu": time.process_time() - worked}
 

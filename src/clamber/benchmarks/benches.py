@@ -33,7 +33,7 @@ from ..types import Floats
 from .batches import batch_rows
 from .breadth import breadth_first
 from .climb_speed import climb_rows
-from .contest import run_contest
+from .contest import NO_HANGS, THESIS, run_contest
 from .control_speed import control_rows, installed, region_rows
 from .peers import race_rows
 from .planner_trials import bench_ablation, bench_seeds, filter_rows, macro_rows, run_cases
@@ -134,7 +134,6 @@ def hexapod_rows(*, say: Say = keep_quiet) -> list[Row]:
     return [*step_rows(say=say), *peer_rows(say=say), *reach_rows(say=say), *region_rows(walker(), say=say)]
 
 
-NO_HANGS: Final = "rules.max_hangs=0"
 MOST_STANCES: Final = 12_000_000
 
 
@@ -165,7 +164,7 @@ def bench_exact(*, cases: tuple[Case, ...] = CASES, say: Say = keep_quiet) -> li
     plain_total = exact_total = 0.0
     for case in cases:
         say(case.label)
-        task = load_task(case.task, (NO_HANGS, *case.overrides))
+        task = load_task(case.task, (*NO_HANGS, *case.overrides))
         problem = pose_problem(task, threads=1).problem
         started = time.perf_counter()
         plain = abandonable(partial(breadth_first, problem, most_stances=MOST_STANCES))
@@ -191,21 +190,19 @@ def bench_exact(*, cases: tuple[Case, ...] = CASES, say: Say = keep_quiet) -> li
 
 def _warm() -> None:
     """Load or compile both searches before the clock runs."""
-    small = pose_problem(load_task("ladder", (NO_HANGS, "goal.y_min=12in")), threads=1).problem
+    small = pose_problem(load_task("ladder", (*NO_HANGS, "goal.y_min=12in")), threads=1).problem
     breadth_first(small, most_stances=10_000)
     explore(small.informed(), most_stances=10_000)
 
 
-BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
-OVERRIDES: Final = ("rules.max_hangs=0", "step.length=1in")
 SEEDS: Final = tuple(range(20))
 
 
 def bench_gaps(
-    *, boards: Sequence[str] = BOARDS, seeds: Sequence[int] = SEEDS, say: Say = keep_quiet, crew: Crew | None = None
+    *, boards: Sequence[str] = THESIS, seeds: Sequence[int] = SEEDS, say: Say = keep_quiet, crew: Crew | None = None
 ) -> list[Row]:
     """Per board: the optimum, and the mean and largest length of the default profile's plans as parts of it."""
-    tasks = {board: load_task(board, OVERRIDES) for board in boards}
+    tasks = {board: load_task(board, (*NO_HANGS, "step.length=1in")) for board in boards}
     say("genetic plans")
     trials = run_cases({board: (task, load_profile("default")) for board, task in tasks.items()}, seeds, crew)
     rows = []

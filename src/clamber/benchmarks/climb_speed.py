@@ -4,7 +4,7 @@ import os
 import tempfile
 import time
 from collections.abc import Callable, Sequence
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from statistics import median
 from typing import Any, Final
@@ -27,7 +27,7 @@ from ..sim.limb_flaws import LimbFlaws
 from ..tasks import load_task
 from ..trials.measured import Row, Say, keep_quiet, round_times
 from ..types import Floats, Json
-from .batches import run_batch
+from .batches import WORKERS, run_batch, timed
 
 
 class TapedClimberPlant(ClimberPlant):
@@ -41,7 +41,7 @@ class TapedClimberPlant(ClimberPlant):
 
     @property
     def steps(self) -> int:
-        """Physics steps written down."""
+        """Steps written down."""
         return sum(n for _, _, n in self._tape)
 
     @property
@@ -96,23 +96,16 @@ def timed_trial(item: Json) -> Json:
 
     Args:
         item: `seed`.
-
-    Returns:
-        The process, when it was ready, and what the trial took by the clock and by the processor [s].
     """
-    ready = _ready()
-    task, plan = two_rungs()
-    started, worked = time.monotonic(), time.process_time()
-    run_plan(task, plan, climbing_flaws(task, ()), noise=read_noise(NO_NOISE, [NOISE]), seed=item["seed"])
-    ended = time.monotonic() - started
-    return {"process": os.getpid(), "ready": ready, "seconds": ended, "cpu": time.process_time() - worked}
+    ready, (task, plan) = _ready(), two_rungs()
+    flaws, noise = climbing_flaws(task, ()), read_noise(NO_NOISE, [NOISE])
+    return timed(ready, partial(run_plan, task, plan, flaws, noise=noise, seed=item["seed"]))
 
 
 ROUNDS: Final = 5
 """How often each piece of work is timed; the median counts."""
 TRIALS: Final = 24
 """Of a batch, at least."""
-WORKERS: Final = (1, 2, 4)
 PARTS: Final = {
     "physics": (("plant", "step"),),
     "sensors and motors": (("plant", "sense"), ("plant", "actuate")),

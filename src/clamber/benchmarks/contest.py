@@ -54,12 +54,11 @@ def random_case(holds: int, seed: int) -> Case:
 
 
 def all_cases() -> tuple[Case, ...]:
-    """The whole set, the same everywhere."""
+    """All cases, the same everywhere."""
     made = [random_case(holds, seed) for holds in SIZES for seed in range(len(PATTERN))]
     return (*(thesis_case(name) for name in THESIS), *made)
 
 
-UNBOUNDED: Final = 1_000_000_000
 SEEDLESS: Final = ("exact", "greedy", "route")
 """Planners that draw nothing at random: one seed tells all."""
 
@@ -105,7 +104,7 @@ class Contender:
         if counted:
             options["max_checks"] = allowance.checks
         if counted and accepts(self.planner, "max_evaluations"):
-            options["max_evaluations"] = UNBOUNDED
+            options["max_evaluations"] = 1_000_000_000
         return options
 
 
@@ -119,11 +118,6 @@ def contenders() -> tuple[Contender, ...]:
         else:
             found.append(Contender(name=planner, planner=planner))
     return tuple(found)
-
-
-TINY: Json = {"seed": 0, "threads": 1}
-REFUSED = "refused"
-"""Status of a trial whose planner can't take the task."""
 
 
 def run_trial(item: Json) -> Json:
@@ -142,7 +136,7 @@ def run_trial(item: Json) -> Json:
         result = find_planner(item["planner"])(task, threads=1, **item["options"])
     except ClamberError as error:
         return {
-            "status": REFUSED,
+            "status": "refused",
             "reason": str(error),
             "length": None,
             "first_length": None,
@@ -171,7 +165,7 @@ def run_trial(item: Json) -> Json:
 @cache
 def load_machine_code(planner: str) -> None:
     """Plan something tiny, once a process, so that no trial's time counts what loading the kernels takes, or compiling them."""
-    tiny = load_task("ladder", ("rules.max_hangs=0", "goal.y_min=12in"))
+    tiny = load_task("ladder", (*NO_HANGS, "goal.y_min=12in"))
     limits = Contender(name=planner, planner=planner).limits(Allowance(checks=2000, seconds=0.1, patience=1.0))
     find_planner(planner)(tiny, threads=1, **limits)
 
@@ -192,7 +186,7 @@ class Trial:
     contender: str
     seed: int
     status: str
-    """A planner's status, "refused", or "failed"."""
+    """A planner's status, "refused" where it can't take the task, or "failed"."""
     reason: str
     length: int | None = None
     """Actions of the plan, checked; None without one."""

@@ -166,7 +166,7 @@ def _solve_often(tick: Tick, states: Floats, place: Floats, ticks: int) -> None:
         tick(states[k % len(states), 0, 0], place)
 
 
-def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_quiet) -> list[Row]:
+def peer_rows(*, rounds: int = ROUNDS, say: Say = keep_quiet) -> list[Row]:
     """The motion of one tick by mink and by pink over our tick of resolved rate control, which has torques besides."""
     limb = bench_limb()
     states, place = random_states(limb, (STATES, 1)), np.array((*STEPPED, 0.0))
@@ -177,9 +177,9 @@ def peer_rows(*, rounds: int = ROUNDS, ticks: int = PEER_TICKS, say: Say = keep_
             continue
         say(f"{name} on the same arm")
         controller = Controller(limb.chain, law_named("resolved-rate"), period=0.005)
-        ours = partial(_tick_often, controller, still_aim(place), states, np.zeros((1, 6)), 20 * ticks)
-        whole, alone = (partial(_solve_often, tick, states, place, ticks) for tick in make(limb.chain))
-        own, with_update, solve = round_times((ours, whole, alone), rounds).T / ticks
+        ours = partial(_tick_often, controller, still_aim(place), states, np.zeros((1, 6)), 20 * PEER_TICKS)
+        whole, alone = (partial(_solve_often, tick, states, place, PEER_TICKS) for tick in make(limb.chain))
+        own, with_update, solve = round_times((ours, whole, alone), rounds).T / PEER_TICKS
         own /= 20
         rows += [
             Row(f"{name}: update and solve_ik, no limits, daqp", 1e6 * median(with_update), "us"),

@@ -93,7 +93,7 @@ class SearchBudget(Interruptible):
             self.codes, self.value, self.found = codes.copy(), value, found
 
     def tell(self) -> None:
-        """Report where the search is."""
+        """Tell where the search is."""
         if self.listener is not None:
             self.listener(Trying(self.checks, self.value, len(self.codes) if self.found else None))
 

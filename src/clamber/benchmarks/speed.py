@@ -27,6 +27,7 @@ from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
 from ..trials.measured import NOTHING, Row, Say, keep_quiet
 from ..types import Ints
+from .contest import THESIS
 
 CHECKOUT: Final = Path(__file__).resolve().parents[3]
 PACKAGE: Final = "clamber_tests_plain"
@@ -91,7 +92,6 @@ class PlainProblem(LimbedProblem):
         return ("nearest", opened.limb, opened.argument)
 
 
-BOARDS: Final = ("ladder", "modified-ladder", "h", "across", "circle")
 GENERATIONS: Final = 60
 COPIES: Final = 6
 """How often an evolved generation is carried out in one go: some hundredths of a second, so that the best of a few goes is undisturbed."""
@@ -111,7 +111,7 @@ class Load:
     weights: Any
 
     def problem(self, threads: int) -> LimbedProblem:
-        """The task, ready for these plans."""
+        """The task, ready for them."""
         return LimbedProblem(self.task, self.table, threads=threads)
 
     def run(self, problem: CompiledProblem) -> Records:
@@ -124,14 +124,14 @@ class Load:
         return Load(self.name, self.task, self.table, self.genes[rows].copy(), self.lengths[rows].copy(), self.weights)
 
 
-def evolved_load(board: str, *, generations: int = GENERATIONS, copies: int = COPIES, seed: int = 0) -> Load:
+def evolved_load(board: str, *, generations: int = GENERATIONS, copies: int = COPIES) -> Load:
     """What a search has in hand when it finds its plan, or after so many generations."""
     profile = load_profile("default")
     task = load_task(board)
     problem = pose_problem(task).problem
-    state = first_generation(problem, profile, seed)
+    state = first_generation(problem, profile, 0)
     while not state.found and state.generation < generations:
-        next_generation(problem, profile, state, seed)
+        next_generation(problem, profile, state, 0)
     genes, lengths = state.population.genes, state.population.lengths
     weights = weights_for(problem, profile)
     return Load(
@@ -150,7 +150,7 @@ def printed_load(name: str, *, copies: int = PRINTED_COPIES) -> Load:
 
 def whole_load() -> list[Load]:
     """The mix: every board's evolved plans and every printed plan."""
-    return [evolved_load(board) for board in BOARDS] + [printed_load(name) for name in plan_names()]
+    return [evolved_load(board) for board in THESIS] + [printed_load(name) for name in plan_names()]
 
 
 REPEATS: Final = 25
@@ -221,7 +221,7 @@ def speed_rows(*, loads: Sequence[Load] | None = None, repeats: int = REPEATS, s
     return [*rows, *plain_rows(loads, say=say)]
 
 
-def plain_rows(loads: Sequence[Load], *, plans: int = PLAIN_PLANS, say: Say = keep_quiet) -> list[Row]:
+def plain_rows(loads: Sequence[Load], *, say: Say = keep_quiet) -> list[Row]:
     """How many times faster than the plain evaluator, on the same plans."""
     say("the plain evaluator")
     name = "action checks, compiled to plain Python, one core, by CPU time"
@@ -232,7 +232,7 @@ def plain_rows(loads: Sequence[Load], *, plans: int = PLAIN_PLANS, say: Say = ke
     for load in loads:
         if not load.name.endswith("evolved"):
             continue
-        few = load.few(plans)
+        few = load.few(PLAIN_PLANS)
         fast, slow = few.problem(1), PlainProblem(load.task, load.table, module)
         codes = [few.table.spell(row[:n]) for row, n in zip(few.genes, few.lengths, strict=True)]
         checks += int(few.run(fast)["checks"].sum())

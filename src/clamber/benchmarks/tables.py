@@ -12,8 +12,6 @@ from ..files import write_atomically
 from ..trials.measured import Row, median_or_nothing
 from .contest import Contest, Trial, Truth
 
-PROVED = ("infeasible",)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Standing:
@@ -70,7 +68,7 @@ def standing(
         cost=median_or_nothing(paid),
         seconds=median([trial.seconds for trial in mine]) if mine else math.nan,
         hopeless=len(closed),
-        told=sum(trial.status in PROVED and within(contest, trial) for trial in closed),
+        told=sum(trial.status == "infeasible" and within(contest, trial) for trial in closed),
     )
 
 
@@ -92,7 +90,7 @@ def contradictions(contest: Contest, truths: dict[str, Truth]) -> list[str]:
             wrong.append(f"{where}: a plan of {trial.length} actions, where none was proved to exist")
         elif trial.length is not None and truth.shortest is not None and trial.length < truth.shortest:
             wrong.append(f"{where}: {trial.length} actions, fewer than the proved {truth.shortest}")
-        elif trial.status in PROVED and truth.feasible:
+        elif trial.status == "infeasible" and truth.feasible:
             wrong.append(f"{where}: proved that there is no plan, where there is one")
     return wrong
 
@@ -195,7 +193,7 @@ def _thousands(value: float) -> str:
 
 
 def rows_of(contest: Contest) -> list[Row]:
-    """The contest as a benchmark's rows."""
+    """The contest as rows."""
     truths = contest.truths()
     limit = f"within {contest.allowance.checks} checks"
     rows = []

@@ -63,7 +63,6 @@ class Walled:
 def wall_rows(
     *,
     sizes: tuple[int, ...] = SIZES,
-    density: float = DENSITY,
     stances: int = STANCES,
     repeats: int = REPEATS,
     say: Say = keep_quiet,
@@ -73,7 +72,7 @@ def wall_rows(
     walls = {}
     for size in grown:
         say(f"stances on walls of {size} holds")
-        walls[size] = _walls(size, density, stances)
+        walls[size] = _walls(size, stances)
     counts = {size: sum(len(wall.stances) for wall in walls[size]) for size in grown}
     say("time per expansion")
     works = [partial(_expand_all, walls[size]) for size in grown]
@@ -82,7 +81,7 @@ def wall_rows(
     each = {size: times[size].cpu / counts[size] for size in grown}
     rows = []
     for size in grown:
-        about = f"{size} holds, {density:g} per m^2"
+        about = f"{size} holds, {DENSITY:g} per m^2"
         rows.append(Row(f"time per expansion, CPU, {about}", each[size] * 1e6, "us"))
         rows.append(Row(f"valid children per expansion, {about}", children[size] / counts[size], "stances"))
     for size in sizes:
@@ -90,15 +89,15 @@ def wall_rows(
         rows.append(Row(name, each[2 * size] / each[size], "ratio", "< 1.10"))
     for size in sizes:
         say(f"loading {size} holds")
-        rows += _loading_rows(size, density)
+        rows += _loading_rows(size)
     return rows
 
 
-def _walls(size: int, density: float, stances: int) -> list[Walled]:
+def _walls(size: int, stances: int) -> list[Walled]:
     walls = max(1, min(WALLS, WALLS * SIZES[0] // size))
     made = []
     for seed in range(walls):
-        task = random_task(size, density, seed)
+        task = random_task(size, DENSITY, seed)
         problem = LimbedProblem(task, make_inventory(task).table(), threads=1)
         made.append(Walled(problem, sampled_stances(problem, stances // walls, seed)))
     return made
@@ -145,11 +144,11 @@ def sampled_stances(problem: LimbedProblem, count: int, seed: int) -> Records:
     return found
 
 
-def _loading_rows(size: int, density: float) -> list[Row]:
+def _loading_rows(size: int) -> list[Row]:
     """Time to read a task and pose it, with the holds scattered or listed, and the memory that its kernels read."""
     rows = []
-    board = random_board_data(size, density)
-    points = random_task(size, density).world.positions().tolist()
+    board = random_board_data(size, DENSITY)
+    points = random_task(size, DENSITY).world.positions().tolist()
     listed = [{"number": i, "x": f"{x!r} m", "y": f"{y!r} m"} for i, (x, y) in enumerate(points, start=1)]
     by_hand = {key: value for key, value in board.items() if key != "random"} | {"holds": listed}
     with TemporaryDirectory() as folder:

@@ -111,7 +111,7 @@ TABLES = (".md", ".csv")
 
 
 def bench_boards(crew_of: "Callable[[Batch], Crew]", store: Path | None, *, output: Path | None, as_json: bool) -> None:
-    """Run the contest and print its tables.
+    """Run the contest and print tables.
 
     Args:
         crew_of: Who runs a batch.
@@ -165,7 +165,6 @@ def print_contest(console: Console, contest: Any, output: Path | None) -> None:
 
 
 def _print_rows(console: Console, rows: "Iterable[Row]") -> None:
-    """Print a benchmark's rows."""
     table = plain_table("name", "value", "unit", "aim", right=("value",))
     for row in rows:
         table.add_row(row.name, f"{row.value:.4g}", row.unit, "" if row.aim is None else str(row.aim))

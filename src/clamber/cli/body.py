@@ -93,7 +93,7 @@ class BodyOptions:
         return bench_flaws(self.flaws.value, self.settings or ())
 
     def build_entries(self, stand: "BodyStand") -> "list[BodyEntry]":
-        """The controls to be compared."""
+        """The controls to compare."""
         from ..errors import UnknownNameError
         from ..families.climber.execution.body_gains import LIMITS, BodyGains, usual_alpha
         from ..families.climber.trials.body_bench import ANGLES
@@ -170,7 +170,7 @@ def _cells(run: "BodyRun", one: "BodyMeasures", keys: Sequence[str]) -> tuple[st
 
 
 def print_trials(console: Console, label: str, trials: "Sequence[PushTrial]") -> None:
-    """Print what became of many pushes."""
+    """Print what pushes came to."""
     off = [trial for trial in trials if trial.measures.unhooked_at is not None]
     stayed = [trial.measures for trial in trials if trial.measures.unhooked_at is None]
     console.print(f"{label}: hooks stayed on in {len(stayed)} of {len(trials)} pushes")

@@ -70,8 +70,6 @@ def _check_plan(what: str, task: str | None, overrides: list[str], everything: b
 
 
 def _print_finding(finding: "Finding") -> None:
-    from ..viewing.text_table import plain_table
-
     console = stdout()
     console.print(f"{finding.kind} '{finding.name}'" + (f": {finding.title}" if finding.title else ""), style="bold")
     facts = plain_table("", "")

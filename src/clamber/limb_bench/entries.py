@@ -8,7 +8,6 @@ gains, J^T's is K_p: "the same stiffness" can mean the yy entry, the mean of bot
 import re
 from collections.abc import Sequence
 from dataclasses import fields, replace
-from pathlib import Path
 from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
@@ -281,14 +280,14 @@ def loop_of(law: LawSettings) -> LawSettings:
     return replace(law, **kept, weight=weight)
 
 
-def with_recommended_gains(limb: BenchLimb, texts: Sequence[str], path: Path = SHIPPED) -> list[str]:
+def with_recommended_gains(limb: BenchLimb, texts: Sequence[str]) -> list[str]:
     """Texts of laws with kp and kd as recommended for the limb; those that state a gain stay as they are.
 
     Raises:
         RecommendationError: If nobody tuned such a law on this limb, or friction is fed forward by what the loop itself moves.
         UnknownNameError, LawError: If a text is no law.
     """
-    known = [one for one in read_recommended(path) if (one.robot, one.limb) == (limb.robot.name, limb.name)]
+    known = [one for one in read_recommended(SHIPPED) if (one.robot, one.limb) == (limb.robot.name, limb.name)]
     out = []
     for text in texts:
         law, stated = _parsed(text)
@@ -299,7 +298,7 @@ def with_recommended_gains(limb: BenchLimb, texts: Sequence[str], path: Path = S
         if not found or (law.feed_friction > 0.0 and law.friction_from != "aim"):
             there = describe_choices(text, [one.law for one in known]) if known else "none for this limb"
             raise RecommendationError(
-                path.name, f"no gains of {text} for {limb.robot.name}'s {limb.name} limb",
+                SHIPPED.name, f"no gains of {text} for {limb.robot.name}'s {limb.name} limb",
                 f"there are {there}; find them by `clamber limb tune`",
             )  # fmt: skip
         out.append(f"{text}{',' if text.partition(':')[2] else ':'}kp={found[0].kp!r},kd={found[0].kd!r}")

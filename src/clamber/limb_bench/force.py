@@ -212,7 +212,7 @@ class ForceResult(Comparison):
 
 
 def run_force(limb: BenchLimb, task: ForceTask, entries: Sequence[Entry], flaws: LimbFlaws) -> ForceResult:
-    """Run every entry alone on the wall.
+    """Run each entry alone on the wall.
 
     Raises:
         LawError: If settings do not fit the limb.

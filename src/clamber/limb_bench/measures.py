@@ -80,10 +80,10 @@ class Run:
         force: Floats = self.trace.wrenches[:, 0, :2] @ direction(angle)
         return force
 
-    def work(self, index: int = 0) -> float:
+    def work(self) -> float:
         """Sum of what each motor gives or brakes, |torque x turn| [J]."""
-        turned = np.diff(self.trace.true[:, index, 0], axis=0)
-        return float(np.abs(self.trace.applied[:-1, index] * turned).sum())
+        turned = np.diff(self.trace.true[:, 0, 0], axis=0)
+        return float(np.abs(self.trace.applied[:-1, 0] * turned).sum())
 
 
 LabelledRun: TypeAlias = Annotated[
@@ -188,25 +188,21 @@ class Measured(Generic[M]):
         return self.run.entry
 
 
-def measure(run: Run, scenario: Scenario, limb: BenchLimb, index: int = 0) -> Measures:
-    """Measures of a run.
-
-    The heat is that of the limb's motors; `index` is that of a limb in the trace's batch.
-    """
+def measure(run: Run, scenario: Scenario, limb: BenchLimb) -> Measures:
+    """Measures of a run; the heat is that of the limb's motors."""
     trace = run.trace
-    unstable = instability(trace, scenario, index)
     true, told = TipMeasures(), TipMeasures()
-    if np.isfinite(trace.true[:, index]).all():
-        true = tip_measures(trace.true_places()[:, index, :2], trace, scenario)
-        told = tip_measures(trace.sensed_places()[:, index, :2], trace, scenario)
+    if np.isfinite(trace.true[:, 0]).all():
+        true = tip_measures(trace.true_places()[:, 0, :2], trace, scenario)
+        told = tip_measures(trace.sensed_places()[:, 0, :2], trace, scenario)
     return Measures(
         true=true,
         encoder=told,
-        work=run.work(index),
-        heat=_heat(run, limb, index),
-        saturated=_saturated(trace, index),
+        work=run.work(),
+        heat=_heat(run, limb),
+        saturated=_saturated(trace),
         tick=run.tick_seconds,
-        unstable_at=unstable,
+        unstable_at=instability(trace, scenario),
     )
 
 
@@ -297,20 +293,20 @@ def _settled(distance: Floats, time: Floats, band: float, begin: float) -> float
     return float(time[last + 1] - begin)
 
 
-def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float | None:
+def instability(trace: LimbTrace, scenario: Scenario) -> float | None:
     """When a run went unstable [s], or None.
 
     A run is unstable where a number is not finite, where a joint is 20 deg beyond its limits, or where the tip swings by more than the
     motion that was asked for, peak to peak, in every window of the last quarter; then from the first window after the last calm one.
     """
-    states = trace.true[:, index]
+    states = trace.true[:, 0]
     lost = ~np.isfinite(states).all(axis=(1, 2))
     angles = np.where(np.isfinite(states[:, 0]), states[:, 0], 0.0)
     joints = trace.chain.joints
     gone = ((angles < joints["lower"] - BEYOND) | (angles > joints["upper"] + BEYOND)).any(axis=1) | lost
     if gone.any():
         return float(trace.time[int(np.argmax(gone))])
-    error = (trace.true_places() - trace.wanted_places())[:, index, :2]
+    error = (trace.true_places() - trace.wanted_places())[:, 0, :2]
     distance = np.hypot(error[:, 0], error[:, 1])
     size = scenario_size(trace, scenario)
     if scenario.push is not None:
@@ -323,15 +319,15 @@ def instability(trace: LimbTrace, scenario: Scenario, index: int = 0) -> float |
     return float(trace.time[round((calm + 1) * len(trace.time) / count)])
 
 
-def _heat(run: Run, limb: BenchLimb, index: int) -> float:
+def _heat(run: Run, limb: BenchLimb) -> float:
     motor = limb.robot.motor
-    currents = run.trace.applied[:, index] / (limb.gears * motor.torque_constant)
+    currents = run.trace.applied[:, 0] / (limb.gears * motor.torque_constant)
     return float((currents**2).sum() * motor.resistance * run.period)
 
 
-def _saturated(trace: LimbTrace, index: int) -> float:
-    cut = (trace.applied[:, index] != trace.commanded[:, index]).any(axis=1)
-    return float(np.mean(cut | (trace.reports["saturated"][:, index] > 0)))
+def _saturated(trace: LimbTrace) -> float:
+    cut = (trace.applied[:, 0] != trace.commanded[:, 0]).any(axis=1)
+    return float(np.mean(cut | (trace.reports["saturated"][:, 0] > 0)))
 
 
 def measure_force(run: Run, task: ForceTask) -> ForceMeasures:

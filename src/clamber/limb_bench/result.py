@@ -373,10 +373,10 @@ class ErrorLine:
     """Shape (samples,) [m]; NaN after a run that broke off."""
 
 
-def error_line(run: Run, scenario: Scenario, until: float, index: int = 0) -> ErrorLine:
+def error_line(run: Run, scenario: Scenario, until: float) -> ErrorLine:
     """Distance from the circle in the last lap, or until a time [s] from the line of a step or the aim under a push; in truth."""
     trace = run.trace
-    tip = trace.true_places()[:, index, :2]
+    tip = trace.true_places()[:, 0, :2]
     if scenario.kind == "circle":
         last = trace.time >= scenario.settle
         return ErrorLine("distance from the circle", "round the last lap", np.abs(radial_error(tip, scenario)[last]))

@@ -88,11 +88,10 @@ def run_contest(
     return out
 
 
-def _tick_seconds(controller: LoopController, trace: LimbTrace, most: int = 200) -> float:
+def _tick_seconds(controller: LoopController, trace: LimbTrace) -> float:
     """Seconds of one tick, by the law again on what was sensed: the best of three rounds."""
     rounds = []
-    count = min(most, len(trace.time))
-    states = [trace.sensed[k] for k in range(count) if np.isfinite(trace.sensed[k]).all()]
+    states = [trace.sensed[k] for k in range(min(200, len(trace.time))) if np.isfinite(trace.sensed[k]).all()]
     if not states:
         return float("nan")
     for _ in range(3):

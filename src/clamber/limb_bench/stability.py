@@ -113,9 +113,7 @@ def spectral_radius(chain: Chain, settings: LawSettings, flaws: LimbFlaws, q: Fl
     return float(np.abs(np.linalg.eigvals(matrix[np.ix_(moved, moved)])).max())
 
 
-def linear_limit(
-    chain: Chain, settings: LawSettings, flaws: LimbFlaws, poses: Iterable[Floats], *, precision: float = 1e-3
-) -> float:
+def linear_limit(chain: Chain, settings: LawSettings, flaws: LimbFlaws, poses: Iterable[Floats]) -> float:
     """Factor on the gains of `settings` at which the first of the poses turns unstable, kd/kp kept.
 
     Args:
@@ -123,7 +121,6 @@ def linear_limit(
         settings: A law; its gains set their ratios.
         flaws: Rate, delay, encoders, viscous friction, payload and weight count.
         poses: Joint angles, each of shape (n,) [rad].
-        precision: Of the factor, relative.
 
     Raises:
         LimitError: If the loop is unstable however small its gains are, or stable however large.
@@ -144,7 +141,7 @@ def linear_limit(
         low, high = high, high * GROWTH
         if high > MOST:
             raise LimitError(settings.law, "is stable however large its gains are")
-    while high > low * (1.0 + precision):
+    while high > low * (1.0 + 1e-3):
         middle = float(np.sqrt(low * high))
         low, high = (middle, high) if stable(middle) else (low, middle)
     return low

@@ -83,8 +83,3 @@ ENTRIES: Final[dict[str, Callable[[], list[tuple[str, str]]]]] = {
     "controllers": lambda: [*LAW_TITLES.items(), *outside_titles("controllers")],
     "plants": lambda: [*PLANT_TITLES.items(), *outside_titles("plants")],
 }
-
-
-def entries(kind: str) -> list[tuple[str, str]]:
-    """Name and title of everything of one kind."""
-    return ENTRIES[kind]()

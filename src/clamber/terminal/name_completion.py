@@ -15,11 +15,11 @@ def names_of(*kinds: str, besides: Iterable[str] = ()) -> Callable[[str], list[O
     """
 
     def offered(incomplete: str) -> list[Offer]:
-        from .catalogue import entries
+        from .catalogue import ENTRIES
 
         found = dict(besides) if isinstance(besides, Mapping) else dict.fromkeys(besides, "")
         for kind in kinds:
-            found |= {name: title for name, title in entries(kind) if name not in found}
+            found |= {name: title for name, title in ENTRIES[kind]() if name not in found}
         return [(name, title) for name, title in found.items() if name.startswith(incomplete)]
 
     return offered

@@ -68,9 +68,9 @@ def print_json(value: Any) -> None:
     sys.stdout.flush()  # so that a closed pipe shows here and not at exit
 
 
-def print_indented(console: Console, words: str, indent: int = 2) -> None:
+def print_indented(console: Console, words: str) -> None:
     """Print a paragraph whose lines all start further in."""
-    console.print(Padding(Text(words), (0, 0, 0, indent), expand=False))
+    console.print(Padding(Text(words), (0, 0, 0, 2), expand=False))
 
 
 def announce_compilation() -> None:

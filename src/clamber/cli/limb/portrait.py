@@ -97,7 +97,7 @@ def print_markdown(portraits: "Sequence[Portrait]") -> None:
 
 
 def print_portraits(console: Console, portraits: "Sequence[Portrait]", folder: Path | None = None) -> None:
-    """Print the figures of every law."""
+    """Print every law's figures."""
     opt.show_table(console, ("law", *GAINS), [each.gains_row() for each in portraits])
     console.print()
     opt.show_table(console, ("law", *NUMBERS), [each.row() for each in portraits])

@@ -25,7 +25,7 @@ class ProgressLine(LiveLine):
         super().__init__(console, quiet=quiet, doing="preparing the search")
 
     def update(self, progress: ProgressEvent) -> None:
-        """Show one moment of the search."""
+        """Show where the search is."""
         self.show(progress_text(progress))
 
 

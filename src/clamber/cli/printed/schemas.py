@@ -43,7 +43,6 @@ def modelled(kind: Any) -> Any:
 
 
 def _is_bound(metadata: Any) -> bool:
-    """Whether it bounds what is valid."""
     return type(metadata).__module__.split(".")[0] in ("annotated_types", "pydantic", "pydantic_core")
 
 

@@ -21,7 +21,7 @@ TABLE_4_1: Final = BodyGains(
 OURS: Final = BodyGains()
 """Our own control as it climbs: map, limit and gains of ours."""
 OUR_ALPHA: Final = replace(TABLE_4_1, alpha=OURS.alpha)
-"""The printed ones with an alpha of ours."""
+"""Printed ones with an alpha of ours."""
 PEG_ERROR: Final = 0.00635
 """How well the thesis knows its pegs, each way along each axis [m]."""
 PLANT: Final = (

@@ -45,18 +45,17 @@ class Replayed:
         return limbed(self.opened.task, self.opened.label)
 
 
-def replay_printed(name: str, overrides: Sequence[str] = (), *, go_on: bool = False) -> Replayed:
+def replay_printed(name: str, overrides: Sequence[str] = ()) -> Replayed:
     """Carry out a printed plan.
 
     Args:
         name: Its name, such as "h-hand".
         overrides: Texts "key=value" that change its task.
-        go_on: Whether to go on past a violation.
     """
     opened = open_plan(name, None, overrides)
     codes = opened.plan.codes(opened.task, opened.label)
-    replay = plan_family(opened.task).problem(opened.task).replay(codes, go_on=go_on)
-    return Replayed(opened, opened.check(go_on=go_on), replay)
+    replay = plan_family(opened.task).problem(opened.task).replay(codes)
+    return Replayed(opened, opened.check(), replay)
 
 
 def limbed_task(name: str, overrides: Sequence[str] = ()) -> LimbedTask:

@@ -85,7 +85,7 @@ def compare_hooks() -> StudyResult:
 
 
 def narrow_cones() -> StudyResult:
-    """The narrowest cone of each board."""
+    """Each board's narrowest cone."""
     bisected = run_all(bisect_item, [{"board": board} for board in BOARDS])
     tried = {
         board: {degrees: read_result(Proof, proof) for degrees, proof in told["tried"]}

@@ -86,16 +86,15 @@ class Inclining:
         return errors
 
 
-def incline(legs: Literal[3, 6], *, corrected: bool = True, seed: int = 0) -> Inclining:
+def incline(legs: Literal[3, 6], *, corrected: bool = True) -> Inclining:
     """Tilt the plate to each of `DIRECTIONS` and back to level.
 
     Args:
         legs: How many stand: those of the Delta-frame, or all.
         corrected: Whether the inclinometers' readings correct what the legs' lengths say.
-        seed: Of the sensors' noise.
     """
     walk = load_walk("level-walk")
-    flaws = WalkerFlaws(inclinometers=Inclinometers(noise=NOISE), force_noise=2.0, seed=seed)
+    flaws = WalkerFlaws(inclinometers=Inclinometers(noise=NOISE), force_noise=2.0, seed=0)
     walker = TracedWalker(walk.robot, WalkerSim(walk.robot, walk.ground, flaws), every=1)
     walker.start(walk.start_pose(), walk.start_place(), walk.start_legs(), np.array(walk.arm))
     motions.find_ground(walker)
