@@ -11,7 +11,7 @@ import math
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -201,6 +201,13 @@ def read_toml(path: Path, label: str | None = None) -> Document:
     except ValueError as error:
         raise FileError(str(path), f"is not valid TOML: {error}", "see https://toml.io") from None
     return Document(label or str(path), data, (), path.parent)
+
+
+def csv_text(rows: Iterable[Iterable[Any]]) -> str:
+    """Rows as CSV; None is an empty field."""
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows(rows)
+    return text.getvalue()
 
 
 def parse_json(text: str | bytes) -> Any:

@@ -51,7 +51,7 @@ class Key:
 
     @property
     def is_list(self) -> bool:
-        """Whether it is a list of tables."""
+        """Whether it lists tables."""
         return get_origin(_bare(self.kind)) is tuple and self.inner is not None
 
 

@@ -35,7 +35,7 @@ class Trials:
 
     @property
     def found(self) -> int:
-        """How many seeds found a plan."""
+        """Seeds that found a plan."""
         return sum(length is not None for length in self.lengths)
 
     def rows(self, name: str, aim: str | None = None) -> list[Row]:

@@ -1,14 +1,12 @@
 """How each planner did, as tables of words: shares, medians and gaps, for the terminal, for Markdown, and trial by trial as CSV."""
 
-import csv
-import io
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from statistics import median
 
-from ..files import write_atomically
+from ..files import csv_text, write_atomically
 from ..trials.measured import Row, median_or_nothing
 from .contest import Contest, Trial, Truth
 
@@ -224,11 +222,5 @@ def save_markdown(contest: Contest, path: Path) -> None:
 
 def save_trials(contest: Contest, path: Path) -> None:
     """Write every trial as a line of CSV, whole or not at all."""
-    text = io.StringIO()
-    table = csv.writer(text, lineterminator="\n")
     names = [field.name for field in fields(Trial)]
-    table.writerow(names)
-    for trial in contest.trials:
-        told = asdict(trial)
-        table.writerow(["" if told[name] is None else told[name] for name in names])
-    write_atomically(path, text.getvalue())
+    write_atomically(path, csv_text([names, *(asdict(trial).values() for trial in contest.trials)]))

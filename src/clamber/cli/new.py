@@ -73,7 +73,7 @@ class BoardOptions:
     as_json: AsJson = False
 
     def check(self) -> None:
-        """Make sure that they go together."""
+        """See that they go together."""
         sources = {"--random": self.random, "--csv": self.csv, "--pixels": self.pixels, "--like": self.like}
         given = [name for name, value in sources.items() if value]
         if len(given) > 1:

@@ -132,7 +132,7 @@ class StudyLine(LiveLine):
 
 
 def verdicts(results: "Sequence[StudyResult]") -> str:
-    """How many results hold, and so on."""
+    """How many hold, and so on."""
     counts = Counter(result.verdict for result in results)
     return ", ".join(f"{counts[word]} {VERDICTS[word][counts[word] > 1]}" for word in VERDICTS if counts[word])
 

@@ -1,7 +1,5 @@
 """Joints over time: as CSV, and in the field names of ROS 2's `trajectory_msgs/msg/JointTrajectory`."""
 
-import csv
-import io
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
@@ -11,6 +9,7 @@ import numpy as np
 from ..errors import SpecError
 from ..execution.log import Log
 from ..family import NotOfFamilyError, family_of
+from ..files import csv_text
 from ..planning.problem.problem import Replay
 from ..types import Floats, Json
 
@@ -66,11 +65,7 @@ class JointTrajectory:
             for k, (name, slides) in enumerate(zip(self.names, self.sliding, strict=True)):
                 titles.append(f"{name} {word} [{along if slides else turning}]")
                 columns.append(values[:, k])
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(titles)
-        writer.writerows(np.column_stack(columns).tolist())
-        return out.getvalue()
+        return csv_text([titles, *np.column_stack(columns).tolist()])
 
     def _fields(self) -> dict[str, Floats | None]:
         return {field: getattr(self, field) for field in QUANTITIES}

@@ -11,7 +11,7 @@ from ..types import Json
 
 
 def probe(address: str) -> Json:
-    """Connect, count the cores, leave."""
+    """Connect, count cores, leave."""
     try:
         import ray
 

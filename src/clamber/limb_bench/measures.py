@@ -193,8 +193,8 @@ def measure(run: Run, scenario: Scenario, limb: BenchLimb) -> Measures:
     trace = run.trace
     true, told = TipMeasures(), TipMeasures()
     if np.isfinite(trace.true[:, 0]).all():
-        true = tip_measures(trace.true_places()[:, 0, :2], trace, scenario)
-        told = tip_measures(trace.sensed_places()[:, 0, :2], trace, scenario)
+        true = tip_measures(trace.true_places()[:, 0, :2], run, scenario)
+        told = tip_measures(trace.sensed_places()[:, 0, :2], run, scenario)
     return Measures(
         true=true,
         encoder=told,
@@ -206,12 +206,12 @@ def measure(run: Run, scenario: Scenario, limb: BenchLimb) -> Measures:
     )
 
 
-def tip_measures(tip: Floats, trace: LimbTrace, scenario: Scenario) -> TipMeasures:
+def tip_measures(tip: Floats, run: Run, scenario: Scenario) -> TipMeasures:
     """Measures of a path of the tip, shape (ticks, 2) [m]."""
-    period = float(trace.time[1] - trace.time[0]) if len(trace.time) > 1 else 0.0
+    trace = run.trace
     error = tip - trace.wanted_places()[:, 0, :2]
     distance = np.hypot(error[:, 0], error[:, 1])
-    common: dict[str, Any] = {"iae": float(distance.sum() * period)}
+    common: dict[str, Any] = {"iae": float(distance.sum() * run.period)}
     if scenario.kind == "circle":
         return TipMeasures(**common, **_round_measures(tip, trace, scenario))
     if scenario.kind == "force":

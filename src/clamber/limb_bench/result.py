@@ -1,7 +1,5 @@
 """Results of the limb bench as values, JSON, CSV and logs; laws compared by one motion, each with its measures over its trials."""
 
-import csv
-import io
 import json
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -16,7 +14,7 @@ import numpy as np
 from ..control.law_settings import LawSettings
 from ..execution.log import Log
 from ..execution.trace import LimbTrace, trace_log
-from ..files import write_atomically
+from ..files import csv_text, write_atomically
 from ..json_form import HIDDEN, Count, Jsonable, Key, in_json
 from ..notebook import Pictured
 from ..sim.bench_limb import BenchLimb
@@ -73,10 +71,8 @@ class BenchResult(Jsonable):
 
     def save_table(self, path: str | Path) -> None:
         """Write `table` to a file as CSV, whole or not at all."""
-        text = io.StringIO()
         columns, lines = self.table()
-        csv.writer(text, lineterminator="\n").writerows((columns, *lines))
-        write_atomically(Path(path), text.getvalue())
+        write_atomically(Path(path), csv_text((columns, *lines)))
 
     def write(self, path: Path) -> None:
         """Write a file as its suffix says: .json, .csv or a picture.

@@ -159,15 +159,11 @@ def rounded_down(value: float, digits: int) -> float:
     return float(f"{math.floor(value / scale * (1 + 1e-12)) * scale:.{digits}g}")
 
 
-def with_damping_time(law: LawSettings, kp: float, damping_time: float) -> LawSettings:
-    """A law with its gains."""
-    return replace(law, kp=kp, kd=kp * damping_time, joint_kp=None, joint_kd=None)
-
-
-def _rebuilt(item: Json) -> tuple[BenchLimb, LimbFlaws]:
-    """Limb and plant of an item, in a worker."""
+def _rebuilt(item: Json) -> tuple[BenchLimb, LimbFlaws, LawSettings]:
+    """Limb, plant, and the law with a kp of 1, of an item in a worker."""
     limb = bench_limb(item["robot"], item["limb"], tuple(item["start"]), upright=item["flaws"]["upright"])
-    return replace(limb, q0=np.array(item["q0"])), LimbFlaws(**item["flaws"])
+    unit = replace(read_law(item["law"]), kp=1.0, kd=item["damping_time"], joint_kp=None, joint_kd=None)
+    return replace(limb, q0=np.array(item["q0"])), LimbFlaws(**item["flaws"]), unit
 
 
 def find_edge(item: Json) -> Json:
@@ -179,8 +175,7 @@ def find_edge(item: Json) -> Json:
     Returns:
         The fields of `Edge`, or `problem`.
     """
-    limb, flaws = _rebuilt(item)
-    unit = with_damping_time(read_law(item["law"]), 1.0, item["damping_time"])
+    limb, flaws, unit = _rebuilt(item)
     linear = linear_limit(limb.chain, unit, flaws, poses(limb))
     low, high, where = FIRST * linear, math.inf, ""
     while high == math.inf:
@@ -218,8 +213,7 @@ def settle_gains(item: Json) -> Json:
     Returns:
         The fields of `Tuned` beside `law` and `edges`.
     """
-    limb, flaws = _rebuilt(item)
-    unit = with_damping_time(read_law(item["law"]), 1.0, item["damping_time"])
+    limb, flaws, unit = _rebuilt(item)
     effort: Effort = item["effort"]
     limit = item["kp"]
     while not unrest(limb, scaled_gains(unit, limit), flaws, "full").steady:

@@ -73,8 +73,7 @@ def _solved(axes: Axes, contest: Contest, truths: dict[str, Truth], order: Seque
     axes.set_ylabel("trials that found a plan [%]")
     boards = sum(truth.feasible is True for truth in truths.values())
     axes.set_title(f"Solved, of {boards} boards that have a plan")
-    style.bare(axes)
-    axes.grid(color=style.FAINT, lw=0.6)
+    style.ruled(axes)
     axes.set_axisbelow(True)
 
 
@@ -99,6 +98,5 @@ def _gaps(axes: Axes, order: Sequence[Standing], looks: Any) -> None:
     axes.tick_params(axis="y", length=0, labelcolor=style.INK)
     axes.set_xlabel("actions above the optimum [%] (bar: median)")
     axes.set_title("How long the plans are")
-    style.bare(axes)
-    axes.grid(axis="x", color=style.FAINT, lw=0.6)
+    style.ruled(axes, "x")
     axes.set_axisbelow(True)

@@ -154,7 +154,7 @@ def _planned(work: Work, request: TrialsRequest, words: WorkerOptions, line: Liv
 
 
 def _replay(work: Work, setup: Setup[Any, Any], seed: int, words: WorkerOptions, line: LiveLine) -> int:
-    """One trial again; the exit code."""
+    """A trial again; the exit code."""
     dynamics = work.dynamics
     kept = stored_result(setup, seed, words.store)
     run, trial = setup.again(seed, kept, line.show)

@@ -62,10 +62,8 @@ def draw_step(
                 lower.plot(run.trace.time, off[:, 0], **line_of(run.entry))
             _hold_axis(upper, lower, [r for each in runs.values() for r in each], start)
             upper.set_title(name, fontsize=9.5)
-            upper.set_xlabel("x - 220 mm [mm] (stretched)")
-            lower.set_xlabel("time [s]")
-            for axes in (upper, lower):
-                dress(axes, grid=0.6)
+            dress(upper, "x - 220 mm [mm] (stretched)", grid=0.6)
+            dress(lower, "time [s]", grid=0.6)
         grid[0, 0].set_ylabel("y [mm]")
         grid[1, 0].set_ylabel("x - 220 mm [mm]")
         study_title(figure, title)
@@ -151,8 +149,7 @@ def draw_radial_errors(
                 )  # fmt: skip
         axes.set_yticks(range(len(order)), order, fontsize=8.5)
         axes.set_xscale("log")
-        axes.set_xlabel("radial RMS over the second lap [mm]")
-        dress(axes, grid=0.6)
+        dress(axes, "radial RMS over the second lap [mm]", grid=0.6)
         handles = [
             Line2D([], [], ls="none", marker=marks[branch], color=style.QUIET, ms=5.5,
                    mfc=style.PAPER if lap == max(laps) else style.QUIET, label=f"{lap:g} s a lap, {branch}")

@@ -59,7 +59,7 @@ def replay_printed(name: str, overrides: Sequence[str] = ()) -> Replayed:
 
 
 def limbed_task(name: str, overrides: Sequence[str] = ()) -> LimbedTask:
-    """A task of a limbed robot by name."""
+    """A limbed robot's task by name."""
     return limbed(load_task(name, overrides), name)
 
 

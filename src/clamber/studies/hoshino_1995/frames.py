@@ -160,7 +160,7 @@ class Ditches:
 
     @classmethod
     def found(cls) -> "Ditches":
-        """Those of the paper's robot."""
+        """Of the paper's robot."""
         footing = Footing.of(hoshino())
         thetas: Floats = np.array(ANGLES) * DEGREE
         directions: Floats = np.array(DIRECTIONS) * DEGREE
