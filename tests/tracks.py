@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from clamber.families.walker.control.track import Track, seen_from
+from clamber.families.walker.control.track import Track
+from clamber.families.walker.robot.plane_poses import seen_from
 from clamber.types import Floats
 
 

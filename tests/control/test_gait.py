@@ -24,14 +24,13 @@ from clamber.families.walker.control.gait import (
 from clamber.families.walker.control.track import (
     Track,
     along_twist,
-    compose,
-    seen_from,
     straight,
     through,
     twist_between,
 )
 from clamber.families.walker.control.walker_balance import mass_centre, mass_moment
 from clamber.families.walker.robot import TwoFrames, WalkerRobot
+from clamber.families.walker.robot.plane_poses import compose, seen_from
 from clamber.families.walker.robot.weight import arm_places, weight_of
 from clamber.tasks.robots import load_robot
 from clamber.types import Floats

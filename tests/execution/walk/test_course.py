@@ -10,12 +10,13 @@ from springs_walker import flat
 
 from clamber.execution.sequencer import Sequencer
 from clamber.families.walker.control.gait import Limits
-from clamber.families.walker.control.track import compose, seen_from, straight
+from clamber.families.walker.control.track import straight
 from clamber.families.walker.execution.footstep_plan import PlannedCourse, PlannedStep, TrackCourse
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.execution.walking import Walking
 from clamber.families.walker.planning.problem import WalkerProblem, walker_table
 from clamber.families.walker.planning.task import WalkerTask
+from clamber.families.walker.robot.plane_poses import compose, seen_from
 from clamber.families.walker.trials.planned import plan_start, planned_steps
 from clamber.planning.problem.codes import MOVE, NONE, RELEASE, pack
 from clamber.tasks import load_task

@@ -7,9 +7,9 @@ import pytest
 
 from clamber.errors import SpecError
 from clamber.families.walker.control.gait import room_at
-from clamber.families.walker.control.track import seen_from
 from clamber.families.walker.execution.settings import WalkSettings
 from clamber.families.walker.planning import Walk, load_walk
+from clamber.families.walker.robot.plane_poses import seen_from
 from clamber.families.walker.trials.planned import BALANCE, CLEARANCE
 from clamber.families.walker.trials.run_walk import crossing_steps, plan_crossing, run_walk, walk_flaws
 

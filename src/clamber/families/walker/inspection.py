@@ -8,6 +8,7 @@ import numpy as np
 
 from ...inspection.finding import FileKind, Finding, Inspection
 from ...shown_units import SI, ShownUnits
+from .control.gait import lengths_at
 from .planning import Walk, load_walk, walk_names
 from .planning.walk import SCHEMA as WALK_SCHEMA
 from .robot import WalkerRobot
@@ -30,12 +31,7 @@ def _walker_facts(robot: WalkerRobot, units: ShownUnits) -> dict[str, str]:
 
 
 def _odd_frames(robot: WalkerRobot) -> Iterator[str]:
-    delta, y = robot.attachments()
-    c, s = np.cos(TWISTS), np.sin(TWISTS)
-    turned = np.stack(
-        (c[:, None] * y[:, 0] - s[:, None] * y[:, 1], s[:, None] * y[:, 0] + c[:, None] * y[:, 1]), axis=-1
-    )
-    lengths = np.linalg.norm(turned - delta, axis=-1)
+    lengths = lengths_at(robot, np.outer(TWISTS, (0.0, 0.0, 1.0)))
     mechanism = robot.mechanism
     inside = ((lengths >= mechanism.shortest) & (lengths <= mechanism.longest)).all(axis=1)
     if not inside.any():

@@ -12,6 +12,7 @@ from .execution.walk_trace import LEG_NAMES, WalkTrace
 from .planning.problem import outline
 from .planning.task import WalkerTask
 from .robot import FRAMES
+from .robot.plane_poses import seen_from
 
 PLACE: Final = ("slide_x", "slide_y", "turn")
 """Joints of the Y-frame in the Delta-frame, as the exported robot calls them."""
@@ -34,11 +35,10 @@ def walk_stances(task: WalkerTask, replay: Replay) -> JointTrajectory:
     """Joints of a walker: the Y-frame in the Delta-frame, and the actuators that move it; plans say nothing of legs."""
     rows = []
     for stance in replay.stances:
-        (x, y, heading), own = stance["pose"]
-        away = complex(own[0] - x, own[1] - y) * complex(math.cos(heading), -math.sin(heading))
+        x, y, turn = seen_from(*stance["pose"])
         ends = outline(task, stance).actuators
         lengths = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
-        rows.append((away.real, away.imag, math.remainder(own[2] - heading, math.tau), *lengths))
+        rows.append((x, y, math.remainder(turn, math.tau), *lengths))
     names = (*PLACE, *ACTUATORS)
     time = np.cumsum(replay.stances["duration"])
     return resting(names, tuple(name != PLACE[2] for name in names), time - time[0], np.array(rows), None)

@@ -13,7 +13,8 @@ import numpy as np
 
 from ....types import Floats
 from ..robot import WalkerRobot
-from .track import Track, compose, seen_from
+from ..robot.plane_poses import compose, seen_from
+from .track import Track
 from .walker_balance import mass_moment
 
 DELTA: Final = 0

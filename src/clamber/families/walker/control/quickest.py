@@ -8,8 +8,9 @@ import numpy as np
 
 from ....types import Floats
 from ..robot import WalkerRobot
+from ..robot.plane_poses import seen_from
 from .gait import FINE, SAMPLES, Limits, farthest_step, slide_places, slide_seconds, target_of, up_to_corner
-from .track import Track, seen_from
+from .track import Track
 
 PIVOTS: Final = tuple(math.radians(angle) for angle in range(-30, 31, 5))
 """Pivots before the walk that are looked at [rad]: the lengths of steps repeat every 60 deg."""

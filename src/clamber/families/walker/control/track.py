@@ -1,4 +1,4 @@
-"""Where a robot is to go, seen from above: pieces of constant body twist, one after another; and poses in the plane.
+"""Where a robot is to go, seen from above: pieces of constant body twist, one after another.
 
 Poses are x, y [m] and heading [rad], shape (3,).
 """
@@ -11,20 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from ....types import Floats
-
-
-def compose(a: Floats, b: Floats) -> Floats:
-    """Pose `b`, given in `a`, in the frame that `a` is given in; shapes (..., 3)."""
-    c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
-    x, y = b[..., 0], b[..., 1]
-    return np.stack([a[..., 0] + c * x - s * y, a[..., 1] + s * x + c * y, a[..., 2] + b[..., 2]], axis=-1)
-
-
-def seen_from(a: Floats, b: Floats) -> Floats:
-    """Pose `b` as seen from `a`, both given in one frame; shapes (..., 3)."""
-    c, s = np.cos(a[..., 2]), np.sin(a[..., 2])
-    x, y = b[..., 0] - a[..., 0], b[..., 1] - a[..., 1]
-    return np.stack([c * x + s * y, c * y - s * x, b[..., 2] - a[..., 2]], axis=-1)
+from ..robot.plane_poses import compose, seen_from
 
 
 def along_twist(twist: Floats, share: float) -> Floats:

@@ -9,8 +9,9 @@ import numpy as np
 
 from ....types import Floats
 from ..control.gait import FINE, Step, farthest_step, look_at_step, target_of, up_to_corner
-from ..control.track import Track, compose, seen_from
+from ..control.track import Track
 from ..robot import WalkerRobot
+from ..robot.plane_poses import compose, seen_from
 from .settings import WalkSettings
 from .walker import Walker
 

@@ -21,7 +21,7 @@ from ..control.gait import (
     slide_places,
     slide_seconds,
 )
-from ..control.track import seen_from
+from ..robot.plane_poses import placed, seen_from
 from ..robot.robot import Legs
 from .brake import OVER, Brake
 from .falls import LIGHT
@@ -252,9 +252,7 @@ def _reach_of_ground(walker: Walker, frame: int, ends: Sequence[Floats]) -> tupl
 
 def _feet_at(walker: Walker, frame: int, pose: Floats) -> Floats:
     """Feet of a frame at a pose, seen from above, shape (3, 2) [m]; level."""
-    c, s = math.cos(pose[2]), math.sin(pose[2])
-    feet: Floats = np.asarray(pose[:2]) + walker.robot.feet()[frame] @ np.array(((c, s), (-s, c)))
-    return feet
+    return placed(walker.robot.feet()[frame], pose)
 
 
 def _ease(walker: Walker, legs: list[int]) -> None:

@@ -7,6 +7,7 @@ import numpy as np
 from ....types import Floats
 from ..control.track import Track
 from ..robot import WalkerRobot
+from ..robot.plane_poses import placed
 from . import motions
 from .footstep_plan import TrackCourse
 from .settings import WalkSettings
@@ -95,9 +96,4 @@ def predict_heights(walker: Walker, track: Track, arm: Floats) -> Heights:
 
 def _ground_under(robot: WalkerRobot, frames: Floats, slope: Floats, floor: float) -> Floats:
     """Heights of the ground under all feet, shape (2, 3) [m]."""
-    out = np.empty((2, 3))
-    for k, (x, y, heading) in enumerate(frames):
-        c, s = np.cos(heading), np.sin(heading)
-        feet = robot.feet()[k] @ np.array(((c, s), (-s, c))) + (x, y)
-        out[k] = floor + feet @ slope
-    return out
+    return np.array([floor + placed(feet, pose) @ slope for feet, pose in zip(robot.feet(), frames, strict=True)])

@@ -50,10 +50,7 @@ def robot_lines(footing: PlantedFeet, q: Floats) -> Iterator[tuple[Floats, str, 
     if footing.support == "y":
         offset = (turn.T @ (feet[1].mean(axis=0) - origin))[:2]
         twist += heading_of(footing.pose[3:6]) - heading_of(q[3:6])
-    c, s = np.cos(twist), np.sin(twist)
-    plate = robot.feet()
-    plate[1] = plate[1] @ np.array([[c, s], [-s, c]]) + offset
-    over = plate @ turn[:, :2].T + origin
+    over = robot.feet_in_plate(np.array((*offset, twist))) @ turn[:, :2].T + origin
     for frame, colour in enumerate((DELTA, Y)):
         yield np.vstack([over[frame], over[frame][:1]]) if frame == 0 else _spokes(over[1]), colour, 2.0
         if frame in footing.standing():

@@ -11,11 +11,12 @@ from ....viewing.recording import MarginRow, Recording, StillFilm
 from ..control.gait import lengths_at
 from ..control.track import Track, straight
 from ..control.walker_balance import mass_centre
-from ..execution.true_walk import TrueWalk, hull_margins
+from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
 from ..execution.walk_trace import WalkTrace
 from ..planning import Walk
 from ..robot import WalkerRobot
+from ..robot.plane_poses import compose
 from ..robot.weight import arm_places, weight_of
 from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
@@ -166,7 +167,7 @@ class WalkFilm(Recording[WalkMoment]):
         self.ends = np.array([0.0, *begins[1:], self.seconds] if begins else [0.0])
         self._size = 0.5 * min(robot.legs.radius_delta, robot.legs.radius_y)
         self._tilts = trace.tilts
-        self._margins = _true_margins(trace) if margins is None else margins
+        self._margins = trace.margins if margins is None else margins
         self._least = [self._least_of(k) for k in range(1, len(self.steps))]
         self.grades = (3, *(self._grade(step, least) for step, least in zip(self._steps, self._least, strict=True)))
 
@@ -193,10 +194,8 @@ class WalkFilm(Recording[WalkMoment]):
         trace = self._trace
         k = min(int(np.searchsorted(trace.time, time)), len(trace.time) - 1)
         shapes = shapes_at(self._robot, trace, k)
-        x, y, _, alpha = trace.pose[k, :4]
-        c, s = math.cos(alpha), math.sin(alpha)
-        px, py, theta = trace.place[k]
-        poses = np.array(((x, y, alpha), (x + c * px - s * py, y + s * px + c * py, alpha + theta)))
+        pose = trace.pose[k, [0, 1, 3]]
+        poses = np.array((pose, compose(pose, trace.place[k])))
         return WalkMoment(
             shapes, trace.forces[k], self._weight, poses, self._loads.at(k), float(trace.time[k]), float(self._tilts[k]),
             float(self._margins[k]),
@@ -295,11 +294,6 @@ def logged_walk(trace: WalkTrace) -> TrueWalk:
     )  # fmt: skip
 
 
-def _true_margins(trace: TrueWalk) -> Floats:
-    rows = len(trace.time)
-    return hull_margins(trace.feet.reshape(rows, 6, 3), trace.touching.reshape(rows, 6), trace.centre)
-
-
 def standing_film(walk: Walk) -> StillFilm[WalkMoment]:
     """The start of a walk, which has no plan."""
     robot, start = walk.robot, walk.start
@@ -322,10 +316,7 @@ def standing(walk: Walk) -> TrueWalk:
     robot, place, legs = walk.robot, walk.start_place(), walk.start_legs().ravel()
     pose = walk.start_pose()
     axes = plate_axes(*pose[3:])
-    c, s = np.cos(place[2]), np.sin(place[2])
-    tops = robot.feet().copy()
-    tops[1] = tops[1] @ np.array(((c, s), (-s, c))) + place[:2]
-    down = tops.reshape(6, 2) @ axes[:, :2].T - legs[:, None] * axes[:, 2]
+    down = robot.feet_in_plate(place).reshape(6, 2) @ axes[:, :2].T - legs[:, None] * axes[:, 2]
     heights = walk.ground.heights(pose[:2] + down[:, :2])
     pose[2] = float((heights - down[:, 2]).max())
     arm: Any = np.array(walk.arm)

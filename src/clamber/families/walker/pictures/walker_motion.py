@@ -15,6 +15,7 @@ from ..execution.walk_scene import plate_axes
 from ..planning.problem import WalkerOutline, carried_weight, outline
 from ..planning.task import WalkerTask
 from ..robot import FRAMES, WalkerRobot
+from ..robot.plane_poses import placed
 
 COLOURS: Final = (style.PARTS[0], style.PARTS[1])
 """Of the Delta-frame and the Y-frame."""
@@ -42,13 +43,11 @@ class WalkShapes:
 def shapes_at(robot: WalkerRobot, trace: TrueWalk, k: int) -> WalkShapes:
     """The robot at a row of its trace."""
     axes, origin = plate_axes(*trace.pose[k, 3:]), trace.pose[k, :3]
-    x, y, theta = trace.place[k]
-    c, s = np.cos(theta), np.sin(theta)
 
     def in_world(points: Floats, f: int) -> Floats:
-        flat = points @ np.array(((c, s), (-s, c))) + (x, y) if f else points
-        placed: Floats = origin + flat @ axes[:, :2].T
-        return placed
+        flat = placed(points, trace.place[k]) if f else points
+        there: Floats = origin + flat @ axes[:, :2].T
+        return there
 
     attachments = [in_world(points, f) for f, points in enumerate(robot.attachments())]
     middle = in_world(np.zeros((1, 2)), 1)[0]
@@ -100,9 +99,7 @@ def posed_moment(task: WalkerTask, stance: np.void, poses: Floats) -> WalkerMome
     at = stance.copy()
     at["pose"] = poses
     for f, feet in enumerate(task.robot.feet()):
-        x, y, angle = poses[f]
-        c, s = math.cos(angle), math.sin(angle)
-        at["foot"][f] = (x, y) + feet @ np.array([[c, s], [-s, c]])
+        at["foot"][f] = placed(feet, poses[f])
     at["mass_x"], at["mass_y"] = carried_weight(task).centre(poses)
     return settled_moment(task, at)
 

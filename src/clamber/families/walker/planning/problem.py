@@ -17,6 +17,7 @@ from ....planning.problem.loops import replay
 from ....planning.problem.problem import CompiledProblem, Records
 from ....types import Floats
 from ..robot import FRAMES
+from ..robot.plane_poses import compose, placed
 from ..robot.weight import Weight, weight_of
 from ..statics.checks import WALKER_CHECKS
 from ..statics.stance import WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
@@ -152,10 +153,8 @@ def walker_params(task: WalkerTask) -> Params:
         raise SpecError(f"robot '{robot.name}'", "mechanism.points_delta", MISSING, allowed)
     record = np.zeros(1, WALKER_PARAMS)
     row = record[0]
-    c, s = math.cos(start.theta), math.sin(start.theta)
-    ox, oy = start.offset
-    row["origin"][0] = start.x, start.y, start.theta
-    row["origin"][1] = start.x + c * ox - s * oy, start.y + s * ox + c * oy, start.theta + start.twist
+    pose = np.array((start.x, start.y, start.theta))
+    row["origin"] = pose, compose(pose, np.array((*start.offset, start.twist)))
     turn = round(math.tau / task.step.angle)
     row["tick"] = task.step.length / TICKS
     row["tick_angle"] = math.tau / turn / TICKS
@@ -255,10 +254,7 @@ class WalkerOutline:
 
 def outline(task: WalkerTask, stance: np.void) -> WalkerOutline:
     """Frames, feet and patches of one stance record as plain arrays."""
-    joints = []
-    for attachments, pose in zip(task.robot.attachments(), stance["pose"], strict=True):
-        c, s = math.cos(pose[2]), math.sin(pose[2])
-        joints.append(pose[:2] + attachments @ np.array([[c, s], [-s, c]]))
+    joints = list(map(placed, task.robot.attachments(), stance["pose"]))
     return WalkerOutline(
         frames=(joints[0], np.vstack([stance["pose"][1, :2], joints[1]])),
         feet=np.array(stance["foot"]),

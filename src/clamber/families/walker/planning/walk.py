@@ -15,6 +15,7 @@ from ....tasks.parts import parts_of
 from ....types import Floats, Json
 from ....units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
 from ..robot import FRAMES, TwoFrames, WalkerRobot, build_walker
+from ..robot.plane_poses import placed
 from ..robot.weight import weight_of
 from ..world.ground import Ground, build_ground
 from .piece import Piece, check_way
@@ -149,11 +150,8 @@ class Walk(OneLine):
         legs, start = self.robot.legs, self.start
         if start.plate == "ground":
             return np.full((2, 3), legs.nominal)
-        feet = self.robot.feet().copy()
-        c, s = math.cos(start.twist), math.sin(start.twist)
-        feet[1] = feet[1] @ np.array(((c, s), (-s, c))) + start.offset
-        c, s = math.cos(start.heading), math.sin(start.heading)
-        heights = self.ground.heights(feet @ np.array(((c, s), (-s, c))) + (start.x, start.y))
+        feet = self.robot.feet_in_plate(self.start_place())
+        heights = self.ground.heights(placed(feet, (start.x, start.y, start.heading)))
         if not np.isfinite(heights).all():
             return np.full((2, 3), math.inf)
         lengths: Floats = legs.nominal + 0.5 * (heights.max() + heights.min()) - heights
@@ -276,9 +274,8 @@ def start_margin(walk: Walk, payload: float) -> float:
     """
     from scipy.spatial import ConvexHull
 
-    place, feet = walk.start_place(), walk.robot.feet().copy()
-    c, s = math.cos(place[2]), math.sin(place[2])
-    feet[1] = feet[1] @ np.array(((c, s), (-s, c))) + place[:2]
+    place = walk.start_place()
+    feet = walk.robot.feet_in_plate(place)
     centre = weight_of(walk.robot, walk.arm or None, payload).centre(np.stack([np.zeros(3), place]))
     equations = ConvexHull(feet.reshape(-1, 2)).equations
     return float((-equations[:, :2] @ centre - equations[:, 2]).min())

@@ -12,6 +12,7 @@ from ....json_form import HIDDEN, INLINE, Count, Key, OrNull, in_json
 from ....types import Floats
 from .ditch import Footing, FootingError, ditch_map
 from .ditch_slides import fewest_slides
+from .plane_poses import seen_from
 from .region_ways import place_at, way_inside
 from .turning import turning_range
 from .workspace import workspace
@@ -149,7 +150,7 @@ def slide_margins(footing: Footing, width: float, slide: Slide, poses: Floats) -
     for a, b in pairwise(slide.way):
         for share in np.linspace(0.0, 1.0, SAMPLES):
             now[slide.frame] = a + share * (b - a)
-            place = _relative(now)
+            place = seen_from(*now)
             stroke = min(stroke, footing.frames.room(place))
             if footing.guard > 0.0:
                 singular = min(singular, footing.guard - footing.frames.nearness(place))
@@ -310,10 +311,3 @@ def _slides(footing: Footing, width: float, poses: Floats, aside: bool) -> list[
         out.append(Slide(frame, rows))
         now[frame], place = rows[-1], after
     return out
-
-
-def _relative(poses: Floats) -> Floats:
-    """Pose of the Y-frame in the Delta-frame, shape (3,)."""
-    c, s = math.cos(poses[0, 2]), math.sin(poses[0, 2])
-    dx, dy = poses[1, :2] - poses[0, :2]
-    return np.array([c * dx + s * dy, c * dy - s * dx, poses[1, 2] - poses[0, 2]])

@@ -23,6 +23,7 @@ from ....units import (
     Quantity,
 )
 from .mechanism import Mechanism, check_mechanism
+from .plane_poses import placed
 
 
 @spec
@@ -146,6 +147,12 @@ class WalkerRobot(Pictured):
     def feet(self) -> Floats:
         """Feet of both frames, each in its own frame [m], shape (2, 3, 2); anticlockwise."""
         return self.mechanism.spread(self.legs.radius_delta, self.legs.radius_y)
+
+    def feet_in_plate(self, place: Floats) -> Floats:
+        """All feet in the Delta-frame with the Y-frame at a place in it: x, y [m], theta [rad], shape (2, 3, 2) [m]."""
+        feet = self.feet()
+        feet[1] = placed(feet[1], place)
+        return feet
 
 
 def build_walker(document: Document) -> WalkerRobot:

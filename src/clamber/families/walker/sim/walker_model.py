@@ -6,7 +6,6 @@ A motor's aim is a state of its own that runs at the speed of `ctrl`, within the
 period, without a word from outside.
 """
 
-import math
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -16,6 +15,7 @@ from ....sim.lone_robot import JointBounds
 from ....types import Floats
 from ....units import GRAVITY
 from ..robot import FRAMES, WalkerRobot
+from ..robot.plane_poses import placed
 from ..world.ground import Ground
 from .walker_flaws import WalkerFlaws
 
@@ -325,8 +325,7 @@ def _add_struts(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerRo
 def strut_angles(robot: WalkerRobot, place: Floats) -> Floats:
     """Directions of the actuators in the Delta-frame with the Y-frame at `place` (x, y [m], theta [rad]), shape (3,) [rad]."""
     on_delta, on_y = robot.attachments()
-    c, s = math.cos(place[2]), math.sin(place[2])
-    ways = place[:2] + on_y @ np.array([[c, s], [-s, c]]) - on_delta
+    ways = placed(on_y, place) - on_delta
     angles: Floats = np.arctan2(ways[:, 1], ways[:, 0])
     return angles
 

@@ -7,11 +7,12 @@ import numpy as np
 
 from ....json_form import HIDDEN, INLINE, Jsonable, Key, in_json
 from ....types import Floats
-from ..control.track import Track, compose, seen_from
+from ..control.track import Track
 from ..execution.tool_hold import HeldPart, ToolHold
 from ..execution.true_walk import TrueWalk
 from ..execution.walker import Walker
 from ..planning.walk import Hold
+from ..robot.plane_poses import compose, seen_from
 
 
 @dataclass(frozen=True, slots=True, eq=False)

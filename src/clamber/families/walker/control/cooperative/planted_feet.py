@@ -93,10 +93,7 @@ class PlantedFeet:
     def feet_on_ground(self) -> Floats:
         """Places of all feet with the plate at `pose`, each on the ground at its height, world [m], shape (2, 3, 3)."""
         turn = turn_of(self.pose[3:6])
-        plate = self.robot.feet()
-        c, s = np.cos(self.twist), np.sin(self.twist)
-        plate[1] = plate[1] @ np.array([[c, s], [-s, c]]) + self.offset
-        over = plate @ turn[:, :2].T + self.pose[:3]
+        over = self.robot.feet_in_plate(np.array((*self.offset, self.twist))) @ turn[:, :2].T + self.pose[:3]
         lengths = (over[..., 2] - self.heights) / turn[2, 2]
         out: Floats = over - lengths[..., None] * turn[:, 2]
         return out
