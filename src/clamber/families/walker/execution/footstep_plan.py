@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TypeAlias
 
 import numpy as np
 
@@ -23,62 +23,26 @@ TURNED = 0.02
 """... or turned by more than this [rad]."""
 
 
-class Stander(Protocol):
-    """What steps along a track are chosen by: a walker, or one that is imagined."""
+@dataclass(slots=True, eq=False)
+class ImaginedWalker:
+    """A robot that stands where it is put: what a track's course asks of a walker, to be gone through beforehand."""
 
-    @property
-    def robot(self) -> WalkerRobot:
-        """Its mechanism, mass and arm."""
-        ...
-
-    @property
-    def settings(self) -> WalkSettings:
-        """How it walks."""
-        ...
-
-    @property
-    def payload(self) -> float:
-        """At the tool point [kg]."""
-        ...
+    robot: WalkerRobot
+    settings: WalkSettings
+    payload: float
+    """At the tool point [kg]."""
+    arm: Floats
+    """Joint angles [rad]."""
+    placed: Floats
+    """Both frames seen from above: x, y [m] and heading [rad], shape (2, 3)."""
 
     def frames(self) -> Floats:
-        """Both frames seen from above: x, y [m] and heading [rad], shape (2, 3)."""
-        ...
+        """See `Walker`."""
+        return self.placed
 
     def postures(self) -> list[Floats]:
-        """Of the arm, in which a step has to be in balance [rad]."""
-        ...
-
-
-class FootstepPlan(Protocol):
-    """Steps one after another, each chosen when the robot stands on six feet."""
-
-    length: float
-    """Of the whole way [m]."""
-    goal: Floats
-    """Pose of the Delta-frame at its end, seen from above: x, y [m], heading [rad], shape (3,)."""
-
-    @property
-    def way(self) -> float:
-        """How far the robot has come [m]."""
-        ...
-
-    @property
-    def done(self) -> bool:
-        """Whether both frames are at the end."""
-        ...
-
-    def next(self, walker: Walker) -> Step | None:
-        """The coming step; None where neither frame can go on."""
-        ...
-
-    def obstacle(self, walker: Walker) -> str:
-        """What keeps both frames from going on, where `next` is None: which limit, and by how much."""
-        ...
-
-    def landed(self, step: Step, walker: Walker) -> bool:
-        """Take note of where a step's frame came down; whether the robot has come on by it."""
-        ...
+        """See `Walker`."""
+        return [self.arm]
 
 
 class TrackCourse:
@@ -91,49 +55,49 @@ class TrackCourse:
 
     def __init__(self, track: Track, *, neutral: float = 0.0) -> None:
         self.length, self.goal = track.length, track.pose(track.length)
+        """Of the whole way [m]; pose of the Delta-frame at its end, seen from above, shape (3,)."""
         self._track, self._neutral = track, neutral
         self._ways = np.zeros(2)
         self._swing: int | None = None
 
     @property
     def way(self) -> float:
-        """See `FootstepPlan`: that of the frame which is behind."""
+        """How far the robot has come [m]: the frame which is behind."""
         return float(self._ways.min())
 
     @property
     def done(self) -> bool:
-        """See `FootstepPlan`."""
+        """Whether both frames are at the end."""
         return self.way >= self.length - FINE
 
-    def next(self, walker: Stander) -> Step | None:
-        """See `FootstepPlan`: the frame whose turn it is, or the other one where it cannot go on; the one that gets farther comes first."""
+    def next(self, walker: Walker | ImaginedWalker) -> Step | None:
+        """The coming step, of the frame whose turn it is or, where it cannot go on, of the other; None where neither can.
+
+        The frame that gets farther comes first.
+        """
         if self._swing is None:
             steps = [self._farthest(walker, swing) for swing in (0, 1)]
             self._swing = int(np.argmax([0.0 if step is None else step.way for step in steps]))
         return self._farthest(walker, self._swing) or self._farthest(walker, 1 - self._swing)
 
-    def obstacle(self, walker: Stander) -> str:
-        """See `FootstepPlan`: of a step of two millimetres."""
+    def obstacle(self, walker: Walker | ImaginedWalker) -> str:
+        """What keeps both frames from going on, where `next` is None: which limit, and by how much, of a step of two millimetres."""
         return "; ".join(self._lack(walker, swing) for swing in (0, 1))
 
-    def landed(self, step: Step, walker: Stander) -> bool:
-        """See `FootstepPlan`."""
+    def landed(self, step: Step, walker: Walker | ImaginedWalker) -> bool:
+        """Take note of where a step's frame came down; whether the robot has come on by it."""
         before = self._ways[step.swing]
         self._ways[step.swing] = self._way_of(step, walker.frames()[step.swing])
         self._swing = 1 - step.swing
         return bool(self._ways[step.swing] - before >= FINE)
 
-    def _lack(self, walker: Stander, swing: int) -> str:
+    def _lack(self, walker: Walker | ImaginedWalker, swing: int) -> str:
         name, limits = NAMES[swing], walker.settings.limits
         if up_to_corner(self._track, self._ways, swing) < FINE:
             return f"the {name} waits for the other at a corner of the way"
         way = min(self.length, float(self._ways[swing]) + 2.0 * FINE)
         end = target_of(self._track, way, swing, self._neutral)
-        looks = [
-            look_at_step(walker.robot, walker.frames(), swing, way, end, arm, walker.payload, limits)
-            for arm in walker.postures()
-        ]
-        step = min(looks, key=lambda look: look.balance)
+        step = _least_balanced(walker, walker.postures(), swing, way, end)
         if step.balance < limits.balance:
             return (
                 f"with the {name} lifted the centre of mass is {1e3 * step.balance:.0f} mm inside the feet that stand, "
@@ -143,26 +107,21 @@ class TrackCourse:
             return f"for the {name} {-1e3 * step.room:.1f} mm are missing to the actuators' strokes or to singular postures"
         return f"the {name} can go on by less than {2e3 * FINE:.0f} mm"
 
-    def _farthest(self, walker: Stander, swing: int) -> Step | None:
+    def _farthest(self, walker: Walker | ImaginedWalker, swing: int) -> Step | None:
         room = up_to_corner(self._track, self._ways, swing)
         if room < FINE:
             return None
-        frames, limits, postures = walker.frames(), walker.settings.limits, walker.postures()
-        longest, step = min(room, walker.settings.longest), None
+        postures, longest, step = walker.postures(), min(room, walker.settings.longest), None
         for arm in postures:  # what one of them allows is looked at no farther in the others
             step = farthest_step(
-                walker.robot, self._track, frames, self._ways, swing, neutral=self._neutral, arm=arm,
-                payload=walker.payload, limits=limits, longest=longest,
+                walker.robot, self._track, walker.frames(), self._ways, swing, neutral=self._neutral, arm=arm,
+                payload=walker.payload, limits=walker.settings.limits, longest=longest,
             )  # fmt: skip
             if step is None:
                 return None
             longest = step.way - float(self._ways[swing])
         assert step is not None
-        looks = [
-            look_at_step(walker.robot, frames, swing, step.way, step.end, arm, walker.payload, limits)
-            for arm in postures
-        ]
-        return min(looks, key=lambda look: look.balance)
+        return _least_balanced(walker, postures, swing, step.way, step.end)
 
     def _way_of(self, step: Step, landed: Floats) -> float:
         """Where on the track a frame that came down elsewhere than it was to is, by how far behind along the way it stands [m]."""
@@ -173,6 +132,15 @@ class TrackCourse:
         if short <= FINE:
             return step.way
         return float(np.clip(step.way - short, self._ways[step.swing], step.way))
+
+
+def _least_balanced(
+    walker: Walker | ImaginedWalker, postures: Sequence[Floats], swing: int, way: float, end: Floats
+) -> Step:
+    """A step to a pose, as it is in that posture of the arm in which it has the least balance."""
+    payload, limits = walker.payload, walker.settings.limits
+    looks = [look_at_step(walker.robot, walker.frames(), swing, way, end, arm, payload, limits) for arm in postures]
+    return min(looks, key=lambda look: look.balance)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -213,30 +181,27 @@ class PlannedCourse:
 
     @property
     def way(self) -> float:
-        """See `FootstepPlan`: that of the Delta-frame."""
+        """See `TrackCourse`: that of the Delta-frame."""
         return float(self._ends[: sum(step.swing == 0 for step in self._steps[: self._at])].sum())
 
     @property
     def done(self) -> bool:
-        """See `FootstepPlan`."""
+        """See `TrackCourse`."""
         return self._at == len(self._steps)
 
     def next(self, walker: Walker) -> Step | None:
-        """See `FootstepPlan`: None where the frame that stands is not where the plan has it."""
-        step, frames = self._steps[self._at], walker.frames()
-        off = seen_from(step.stands, frames[1 - step.swing])
+        """See `TrackCourse`: None where the frame that stands is not where the plan has it."""
+        step = self._steps[self._at]
+        off = seen_from(step.stands, walker.frames()[1 - step.swing])
         if math.hypot(off[0], off[1]) > ASTRAY or abs(math.remainder(off[2], math.tau)) > TURNED:
             return None
-        way, settings = self.way, walker.settings
-        straight = look_at_step(
-            walker.robot, frames, step.swing, way, step.corners[-1], walker.arm, walker.payload, settings.limits
-        )
-        if straight.room >= 0.0 and straight.balance >= settings.limits.balance:
+        straight = _least_balanced(walker, [walker.arm], step.swing, self.way, step.corners[-1])
+        if straight.room >= 0.0 and straight.balance >= walker.settings.limits.balance:
             return straight
         return replace(straight, over=tuple(step.corners[:-1]))
 
     def obstacle(self, walker: Walker) -> str:
-        """See `FootstepPlan`."""
+        """See `TrackCourse`."""
         step = self._steps[self._at]
         off = seen_from(step.stands, walker.frames()[1 - step.swing])
         turned = abs(math.degrees(math.remainder(off[2], math.tau)))
@@ -246,7 +211,11 @@ class PlannedCourse:
         )
 
     def landed(self, step: Step, walker: Walker) -> bool:
-        """See `FootstepPlan`."""
+        """See `TrackCourse`."""
         off = seen_from(step.end, walker.frames()[step.swing])
         self._at += 1
         return bool(np.hypot(off[0], off[1]) <= ASTRAY)
+
+
+FootstepPlan: TypeAlias = TrackCourse | PlannedCourse
+"""Steps one after another, each chosen when the robot stands on six feet."""

@@ -9,29 +9,11 @@ from ..control.track import Track
 from ..robot import WalkerRobot
 from ..robot.plane_poses import placed
 from . import motions
-from .footstep_plan import TrackCourse
-from .settings import WalkSettings
+from .footstep_plan import ImaginedWalker, TrackCourse
 from .walker import Walker
 
 ALIKE = 1e-6
 """Places of the way that are nearer count as one [m]."""
-
-
-@dataclass(slots=True, eq=False)
-class _Imagined:
-    """A robot that stands where it is put: what a course asks of one."""
-
-    robot: WalkerRobot
-    settings: WalkSettings
-    payload: float
-    arm: Floats
-    placed: Floats
-
-    def frames(self) -> Floats:
-        return self.placed
-
-    def postures(self) -> list[Floats]:
-        return [self.arm]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,7 +50,7 @@ def predict_heights(walker: Walker, track: Track, arm: Floats) -> Heights:
     floor = float(walker.heights[walker.stands > 0].mean()) - float(
         slope @ walker.anchors[walker.stands > 0].mean(axis=0)
     )
-    imagined = _Imagined(robot, walker.settings, walker.payload, arm, walker.frames().copy())
+    imagined = ImaginedWalker(robot, walker.settings, walker.payload, arm, walker.frames().copy())
     course = TrackCourse(track, neutral=float(walker.place[2]))
     clear = robot.legs.lift if walker.settings.lift is None else walker.settings.lift
     ways, rooms, at = [], [], 0.0
