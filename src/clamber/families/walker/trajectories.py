@@ -8,7 +8,7 @@ import numpy as np
 from ...execution.log import Log
 from ...exports.joint_trajectory import JointTrajectory, Trajectories, moved, resting
 from ...planning.problem.problem import Replay
-from .execution.walk_trace import LEG_NAMES, WalkTrace
+from .execution.walk_trace import WalkTrace
 from .planning.problem import outline
 from .planning.task import WalkerTask
 from .robot import FRAMES
@@ -25,7 +25,6 @@ LEGS: Final = tuple(f"{frame}_leg_{k}" for frame in FRAMES for k in range(3))
 def walk_trajectory(log: Log) -> JointTrajectory:
     """The joints of a walk: the Y-frame in the Delta-frame as believed, legs as sensed, actuators as commanded."""
     trace = WalkTrace.from_log(log)
-    assert len(LEGS) == len(LEG_NAMES)
     names = (*PLACE, *LEGS, *ACTUATORS)
     positions = np.hstack([trace.place, trace.lengths, trace.actuators])
     return moved(names, tuple(name != PLACE[2] for name in names), trace.time, positions, log.label)

@@ -10,13 +10,11 @@ import numpy as np
 from ....types import Floats
 from ..control.gait import FINE, Step, farthest_step, look_at_step, target_of, up_to_corner
 from ..control.track import Track
-from ..robot import WalkerRobot
+from ..robot import FRAME_TITLES, WalkerRobot
 from ..robot.plane_poses import compose, seen_from
 from .settings import WalkSettings
 from .walker import Walker
 
-NAMES = ("Delta-frame", "Y-frame")
-"""Of the frames, in the order of every array."""
 ASTRAY = 0.02
 """A planned step is not tried where the frame that stands is farther than this from where the plan has it [m] ..."""
 TURNED = 0.02
@@ -92,7 +90,7 @@ class TrackCourse:
         return bool(self._ways[step.swing] - before >= FINE)
 
     def _lack(self, walker: Walker | ImaginedWalker, swing: int) -> str:
-        name, limits = NAMES[swing], walker.settings.limits
+        name, limits = FRAME_TITLES[swing], walker.settings.limits
         if up_to_corner(self._track, self._ways, swing) < FINE:
             return f"the {name} waits for the other at a corner of the way"
         way = min(self.length, float(self._ways[swing]) + 2.0 * FINE)
@@ -206,7 +204,7 @@ class PlannedCourse:
         off = seen_from(step.stands, walker.frames()[1 - step.swing])
         turned = abs(math.degrees(math.remainder(off[2], math.tau)))
         return (
-            f"the {NAMES[1 - step.swing]} stands {1e3 * math.hypot(off[0], off[1]):.0f} mm and {turned:.1f} deg from where the plan "
+            f"the {FRAME_TITLES[1 - step.swing]} stands {1e3 * math.hypot(off[0], off[1]):.0f} mm and {turned:.1f} deg from where the plan "
             f"has it; {1e3 * ASTRAY:.0f} mm and {math.degrees(TURNED):.1f} deg are allowed"
         )
 

@@ -8,7 +8,7 @@ import numpy as np
 from ....execution.reading_monitor import Channel, ReadingMonitor
 from ....types import Floats
 from ....units import GRAVITY
-from ..robot import FRAMES, WalkerRobot
+from ..robot import LEG_NAMES, WalkerRobot
 from .plant import WalkerSensed
 
 BEHIND: Final = 0.5
@@ -23,13 +23,12 @@ ACTUATORS, LEGS, FORCES, INCLINES, ARM = slice(0, 3), slice(3, 9), slice(9, 15),
 
 def channels_of(robot: WalkerRobot) -> tuple[Channel, ...]:
     """Lengths of actuators and legs, forces of the legs, both inclinometers, joints of the arm."""
-    legs = [f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3)]
     falls = math.sqrt(GRAVITY / robot.legs.nominal)  # as fast as a leg that is free to tip over turns [rad/s]
     arm = () if robot.arm is None else robot.arm.fastest
     return (
         *(Channel(name=f"actuator {i + 1}", fastest=BLOWS * robot.mechanism.speed) for i in range(3)),
-        *(Channel(name=leg, fastest=BLOWS * robot.legs.speed) for leg in legs),
-        *(Channel(name=f"load cell of {leg}", fastest=math.inf) for leg in legs),
+        *(Channel(name=leg, fastest=BLOWS * robot.legs.speed) for leg in LEG_NAMES),
+        *(Channel(name=f"load cell of {leg}", fastest=math.inf) for leg in LEG_NAMES),
         *(Channel(name=f"inclinometer {axis}", fastest=falls) for axis in "xy"),
         *(Channel(name=f"arm joint {i}", fastest=BLOWS * speed) for i, speed in enumerate(arm)),
     )

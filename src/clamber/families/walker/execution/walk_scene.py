@@ -7,13 +7,12 @@ import numpy as np
 from ....execution.log_scene import WORLD, Frame, LoggedScene, Shape, rod, turn_of
 from ....execution.sample_log import columns_of
 from ....types import Floats
-from ..robot import FRAMES, WalkerRobot
+from ..robot import FRAME_TITLES, LEG_NAMES, WalkerRobot
 from ..world.ground import Ground
-from .walk_trace import LEG_NAMES, walk_titles
+from .walk_trace import walk_titles
 
 GROUND: Final = "ground"
-PLATE: Final = "Delta-frame"
-SECOND: Final = "Y-frame"
+PLATE, SECOND = FRAME_TITLES
 COLOURS: Final = ("#0072B2", "#D55E00")
 """Of the Delta-frame and the Y-frame."""
 LEVEL: Final = "#ECE9E1"
@@ -54,9 +53,7 @@ def walk_scene(robot: WalkerRobot, ground: Ground, *, true: bool, arm: bool) -> 
             Frame(PLATE, WORLD, pose[:3], turn_of(plate)),
             Frame(SECOND, PLATE, (x, y, 0.0), turn_of(inner)),
         ]
-        made += [
-            Frame(f"{name} sole", (PLATE, SECOND)[k // 3], soles[k // 3, k % 3]) for k, name in enumerate(LEG_NAMES)
-        ]
+        made += [Frame(f"{name} sole", FRAME_TITLES[k // 3], soles[k // 3, k % 3]) for k, name in enumerate(LEG_NAMES)]
         return made + ([Frame("tool", WORLD, row[columns["true_tool"]])] if true and arm else [])
 
     shapes = {GROUND: _ground(ground)} | _robot(robot)
@@ -94,10 +91,10 @@ def _ground(ground: Ground) -> list[Shape]:
 def _robot(robot: WalkerRobot) -> dict[str, list[Shape]]:
     r = THICK * max(robot.legs.radius_delta, robot.legs.radius_y)
     shapes: dict[str, list[Shape]] = {}
-    for f, (frame, corners) in enumerate(zip((PLATE, SECOND), robot.attachments(), strict=True)):
+    for frame, colour, corners in zip(FRAME_TITLES, COLOURS, robot.attachments(), strict=True):
         places = np.column_stack((corners, np.zeros(3)))
-        others = np.roll(places, -1, axis=0) if FRAMES[f] == "delta" else np.zeros((3, 3))
-        shapes[frame] = [rod(here, there, r, COLOURS[f]) for here, there in zip(places, others, strict=True)]
+        others = np.roll(places, -1, axis=0) if frame == PLATE else np.zeros((3, 3))
+        shapes[frame] = [rod(here, there, r, colour) for here, there in zip(places, others, strict=True)]
     pad = max(robot.legs.pad_radius, 1.6 * r)
     up = np.array((0.0, 0.0, 1.0))
     for k, name in enumerate(LEG_NAMES):

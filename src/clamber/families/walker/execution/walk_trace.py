@@ -11,7 +11,7 @@ from ....execution.log import Log, LogError
 from ....execution.sample_log import fields_of, report_notes, report_of, sample_log, table_of, width
 from ....execution.samples import Samples
 from ....types import Floats, Ints, Json
-from ..robot import FRAMES
+from ..robot import LEG_NAMES
 from .walker import LEGS, Walker
 
 TOPIC: Final = "walk"
@@ -20,7 +20,6 @@ EVERY: Final = 5
 """Ticks between samples; the last tick is always one."""
 POSE: Final = (("x", "m"), ("y", "m"), ("z", "m"), ("alpha", "rad"), ("beta", "rad"), ("gamma", "rad"))
 PLACE: Final = (("x", "m"), ("y", "m"), ("theta", "rad"))
-LEG_NAMES: Final = tuple(f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3))
 PHASES: Final = ("prepare", "lift", "slide", "lower", "settle")
 """What a walk does, by number."""
 WHOLE: Final = frozenset({"step", "phase", "stands"})

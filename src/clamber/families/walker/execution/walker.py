@@ -25,7 +25,7 @@ from ..control.posture import (
     whole_steps,
 )
 from ..control.walker_balance import mass_centre
-from ..robot import WalkerRobot
+from ..robot import FRAME_TITLES, WalkerRobot
 from ..robot.two_frames import FOUND, follow_branch
 from ..robot.weight import weight_of
 from .falls import FallWatch
@@ -70,7 +70,7 @@ class ArmTask(Protocol):
 
 def leg_name(i: int) -> str:
     """What reports call a leg, by its index in arrays of shape (6,)."""
-    return f"leg {i % 3 + 1} of the {('Delta-frame', 'Y-frame')[i // 3]}"
+    return f"leg {i % 3 + 1} of the {FRAME_TITLES[i // 3]}"
 
 
 class Walker:

@@ -16,10 +16,11 @@ from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_f
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
 from ..planning.task import WalkerTask
+from ..robot import FRAME_TITLES
 from .alone import ground_alone, walker_alone
 from .report import walk_page
 from .walk_run_view import run_picture
-from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment
+from .walker_motion import COLOURS, WalkerMoment, settled_moment
 from .walker_view import WalkerArtists, WalkerView, draw_ground, draw_walk, near_walk, walker_bounds
 
 GHOSTS: Final = 2
@@ -43,7 +44,7 @@ def walker_route(task: WalkerTask, replay: Replay) -> Figure:
     facts = ("Swaps", str(swaps)), ("Way", f"{way / size:.0f} {unit}, Delta-frame")
     height = layout.panel[1]
     write_facts(panel, replay, normalisation_of(task), facts, height)
-    for f, (name, colour) in enumerate(zip(NAMES, COLOURS, strict=True)):
+    for f, (name, colour) in enumerate(zip(FRAME_TITLES, COLOURS, strict=True)):
         x, y = 1.5 * f + 0.05, height - FACTS - 0.1
         panel.add_line(Line2D([x], [y], marker="o", ms=4, color=colour, ls=""))
         panel.text(x + 0.12, y, f"stood here: {name}", fontsize=7, va="center", color=style.QUIET)

@@ -10,6 +10,7 @@ from ....types import Floats
 from ....viewing import style
 from ....viewing.browser.solids import DISC, Figure, Mesh, colour, prism
 from ....viewing.scene import Bounds, goal_box, name_goal
+from ..execution.walk_scene import HIGHER, LEVEL, LOWER, THICK
 from ..planning.task import Goal
 from ..robot import WalkerRobot
 from ..world.ground import Ground, Surface
@@ -18,9 +19,6 @@ from .walker_motion import COLOURS, WalkShapes
 if TYPE_CHECKING:
     import viser
 
-LEVEL: Final = "#ECE9E1"
-HIGHER: Final = "#E0C9A0"
-LOWER: Final = "#9FB0C0"
 SHADES: Final = ((-1e-6, LOWER), (1e-6, LEVEL), (np.inf, HIGHER))
 """Colour of a brick up to a height of its top above the slope [m]."""
 ABOVE: Final = 0.004
@@ -152,8 +150,6 @@ def _bricks(bricks: Floats, bottom: float) -> Mesh:
     return vertices.reshape(-1, 3), faces.reshape(-1, 3)
 
 
-THICK: Final = 0.028
-"""Radius of a frame's bars over that of its circle of feet [-]."""
 LONGEST: Final = 0.9
 """Length of the arrow of a third of the weight, over the radius of the feet's circle [-]."""
 SMALLEST: Final = 0.01

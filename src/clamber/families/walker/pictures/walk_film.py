@@ -15,14 +15,14 @@ from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
 from ..execution.walk_trace import WalkTrace
 from ..planning import Walk
-from ..robot import WalkerRobot
+from ..robot import FRAME_TITLES, WalkerRobot
 from ..robot.plane_poses import compose
 from ..robot.weight import arm_places, weight_of
 from ..trials.run_walk import lay_track
 from ..world.ground import Ground, Surface
 from .space import WalkMoment
 from .walker_loads import WalkLoads, actuator_gauges, leg_force_gauges, leg_gauges, plate_normals
-from .walker_motion import NAMES, WalkerMoment, WalkShapes, shapes_at
+from .walker_motion import WalkerMoment, WalkShapes, shapes_at
 from .walker_view import WalkerView
 
 USUAL: Final = 16.0
@@ -107,7 +107,7 @@ class PlannedWalkFilm(Recording[WalkMoment]):
     def facts(self, step: int, at: WalkMoment) -> tuple[tuple[str, str], ...]:
         """See `Recording`."""
         words = []
-        for name, (x, y, angle), touching in zip(NAMES, at.poses.tolist(), at.shapes.touching, strict=True):
+        for name, (x, y, angle), touching in zip(FRAME_TITLES, at.poses.tolist(), at.shapes.touching, strict=True):
             turn = math.remainder(angle, math.tau) / DEGREE
             words.append(
                 (

@@ -19,10 +19,10 @@ from ....viewing.recording import Frame
 from ....viewing.scene import draw_forbidden
 from ....viewing.style import bare
 from ..execution.true_walk import TrueWalk
-from ..robot import WalkerRobot
+from ..robot import FRAME_TITLES, WalkerRobot
 from ..trials.run_walk import WalkRun
 from ..world.ground import Ground, Surface
-from .walker_motion import COLOURS, NAMES, WalkShapes, shapes_at
+from .walker_motion import COLOURS, WalkShapes, shapes_at
 
 ROOM: Final = 0.45
 """About the plate's way, that is shown [m] ..."""
@@ -89,7 +89,9 @@ class WalkRunView:
             Line2D([], [], ls="", marker="o", ms=4.5, color=style.QUIET, mfc=face, label=words)
             for face, words in ((style.QUIET, "foot on the ground"), (style.PAPER, "foot in the air"))
         ]
-        parts = [Line2D([], [], color=colour, lw=3.0, label=name) for colour, name in zip(COLOURS, NAMES, strict=True)]
+        parts = [
+            Line2D([], [], color=colour, lw=3.0, label=name) for colour, name in zip(COLOURS, FRAME_TITLES, strict=True)
+        ]
         self.figure.legend(
             handles=[
                 *parts, Line2D([], [], color=style.INK, lw=1.2, label="actuator"), *arm, *feet,

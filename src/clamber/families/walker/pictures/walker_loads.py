@@ -11,11 +11,11 @@ from ....viewing.panel import Gauges
 from ..control.gait import lengths_at
 from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
-from ..robot import FRAMES, WalkerRobot
+from ..robot import LEG_NAMES, WalkerRobot
 from ..world.ground import Ground
 from .walker_motion import COLOURS
 
-LEGS: Final = tuple(f"{frame.capitalize()} leg {i + 1}" for frame in FRAMES for i in range(3))
+LEGS: Final = tuple(map(str.capitalize, LEG_NAMES))
 ACTUATORS: Final = tuple(f"actuator {i + 1}" for i in range(3))
 NEAR_END: Final = 0.05
 """Share of the stroke from either end at which a bar of length turns red [-]."""

@@ -14,12 +14,11 @@ from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
 from ..planning.problem import WalkerOutline, carried_weight, outline
 from ..planning.task import WalkerTask
-from ..robot import FRAMES, WalkerRobot
+from ..robot import WalkerRobot
 from ..robot.plane_poses import placed
 
 COLOURS: Final = (style.PARTS[0], style.PARTS[1])
 """Of the Delta-frame and the Y-frame."""
-NAMES: Final = tuple(f"{name.capitalize()}-frame" for name in FRAMES)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

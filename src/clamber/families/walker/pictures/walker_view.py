@@ -28,10 +28,11 @@ from ....viewing.scene import (
 )
 from ....viewing.view import CloseUp, Picture
 from ..planning.task import WalkerTask
+from ..robot import FRAME_TITLES
 from ..statics.checks import WALKER_CHECKS
 from ..world.ground import Block
 from .walker_loads import actuator_gauges
-from .walker_motion import COLOURS, NAMES, WalkerMoment, settled_moment, walker_motion
+from .walker_motion import COLOURS, WalkerMoment, settled_moment, walker_motion
 
 RISE: Final = 0.25
 """By what share of its radius a lifted foot looks larger, for it is nearer to the eye [-]."""
@@ -201,7 +202,7 @@ def draw_key(panel: Axes, left: float, y: float) -> None:
 class WalkerView(PlanView[WalkerMoment]):
     """A picture of a walk that can be set to any moment of it."""
 
-    rows = NAMES
+    rows = FRAME_TITLES
 
     def __init__(self, task: WalkerTask, replay: Replay) -> None:
         self.moments = [settled_moment(task, stance) for stance in replay.stances]
@@ -245,12 +246,12 @@ def describe_walk(task: WalkerTask, before: WalkerMoment, after: WalkerMoment, r
     words = "stays"
     stood = before.lifts.index(0.0)
     if before.lifts != after.lifts:
-        words = f"{NAMES[1 - stood]} lands, {NAMES[stood]} lifts"
+        words = f"{FRAME_TITLES[1 - stood]} lands, {FRAME_TITLES[stood]} lifts"
     else:
         dx, dy, turn = (after.poses - before.poses)[1 - stood]
         turn = math.remainder(turn, math.tau)
         unit, size = length_unit(task)
-        lifted = NAMES[1 - stood]
+        lifted = FRAME_TITLES[1 - stood]
         if max(abs(dx), abs(dy)) > 1e-9:
             axis, way = ("x", dx) if abs(dx) > abs(dy) else ("y", dy)
             words = f"{lifted} slides {abs(way) / size:.3g} {unit} along {'+' if way > 0 else '−'}{axis}"

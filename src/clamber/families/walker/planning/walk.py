@@ -14,7 +14,7 @@ from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....types import Floats, Json
 from ....units import Angle, Length, NonNegativeMass, Point, PositiveLength, Quantity
-from ..robot import FRAMES, TwoFrames, WalkerRobot, build_walker
+from ..robot import LEG_NAMES, TwoFrames, WalkerRobot, build_walker
 from ..robot.plane_poses import placed
 from ..robot.weight import weight_of
 from ..world.ground import Ground, build_ground
@@ -210,15 +210,10 @@ def _check_start(walk: Walk, document: Document) -> None:
     if low < legs.shortest or high > legs.longest:
         allowed = (
             f"asks for legs of {1e3 * low:.0f} to {1e3 * high:.0f} mm; "
-            f"they can be {1e3 * legs.shortest:.0f} to {1e3 * legs.longest:.0f} mm: the ground under {_leg(int(lengths.argmax()))} is "
-            f"{1e3 * (high - low):.0f} mm lower than under {_leg(int(lengths.argmin()))}"
+            f"they can be {1e3 * legs.shortest:.0f} to {1e3 * legs.longest:.0f} mm: the ground under {LEG_NAMES[int(lengths.argmax())]} is "
+            f"{1e3 * (high - low):.0f} mm lower than under {LEG_NAMES[int(lengths.argmin())]}"
         )
         raise document.problem("start", allowed)
-
-
-def _leg(k: int) -> str:
-    """A leg by its number, from 0, in words."""
-    return f"{FRAMES[k // 3]} leg {k % 3 + 1}"
 
 
 def walk_keys() -> Mapping[str, tuple[str, ...]]:

@@ -4,7 +4,9 @@ from .geometry import Followed as Followed
 from .geometry import PoseError as PoseError
 from .geometry import TwoFrames as TwoFrames
 from .mechanism import Mechanism as Mechanism
+from .robot import FRAME_TITLES as FRAME_TITLES
 from .robot import FRAMES as FRAMES
+from .robot import LEG_NAMES as LEG_NAMES
 from .robot import Arm as Arm
 from .robot import Legs as Legs
 from .robot import Mass as Mass

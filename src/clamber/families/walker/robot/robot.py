@@ -122,6 +122,10 @@ class Mass:
 SCHEMA: Final = "clamber-robot-1"
 FRAMES: Final = ("delta", "y")
 """Names of the frames, in the order of every array: the Delta-frame carries the body."""
+FRAME_TITLES: Final = ("Delta-frame", "Y-frame")
+"""What people read."""
+LEG_NAMES: Final = tuple(f"{frame} leg {i + 1}" for frame in FRAMES for i in range(3))
+"""Of the six legs, frame by frame."""
 
 
 @spec
