@@ -105,25 +105,15 @@ class WalkSpec:
 
 
 @spec
-class Walk(OneLine):
+class Walk(OneLine, WalkSpec):
     """A walk with everything resolved, in SI units."""
 
     kind: ClassVar[str] = "walk"
 
-    name: str
-    title: str
     robot: WalkerRobot
     ground: Ground
-    start: WalkStart
-    way: tuple[Piece, ...]
-    level: bool
-    probe: float
-    """[m]."""
-    arm: tuple[float, ...]
+    arm: tuple[Angle, ...]
     """Joint angles [rad]; none without an arm."""
-    payload: float
-    """[kg]."""
-    hold: Hold | None = None
     document: Json = field(default_factory=dict)
     """Robot, ground and walk as read, with overrides applied: a worker rebuilds the walk from it."""
 
@@ -184,20 +174,9 @@ def build_walk(document: Document) -> Walk:
     if stated.arm is not None and len(stated.arm) != joints:
         raise document.problem("arm", f"must have {joints} entries, one for each joint of the robot's arm")
     rest = () if robot.arm is None else robot.arm.rest
-    walk = Walk(
-        name=stated.name,
-        title=stated.title,
-        robot=robot,
-        ground=ground,
-        start=stated.start,
-        way=stated.way,
-        level=stated.level,
-        probe=stated.probe,
-        arm=rest if stated.arm is None else stated.arm,
-        payload=stated.payload,
-        hold=stated.hold,
-        document=document.data,
-    )
+    told = {name: getattr(stated, name) for name in field_names(WalkSpec)}
+    told["arm"] = rest if stated.arm is None else stated.arm
+    walk = Walk(**told, robot=robot, ground=ground, document=document.data)
     _check_start(walk, document)
     return walk
 

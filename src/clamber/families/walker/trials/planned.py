@@ -90,8 +90,6 @@ def walk_of(task: WalkerTask) -> Walk:
         ground=task.world,
         start=WalkStart(x=start.x, y=start.y, heading=start.theta, offset=start.offset, twist=start.twist),
         way=(),
-        level=True,
-        probe=0.0,
         arm=rest if start.arm is None else start.arm,
         payload=start.payload,
     )
