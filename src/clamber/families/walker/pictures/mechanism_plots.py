@@ -17,7 +17,7 @@ from ....units import DEGREE
 from ....viewing import style
 from ....viewing.output import drawing
 from ..robot.curves import INSIDE
-from ..robot.ditch_plan import Crossing
+from ..robot.ditch_plan import Crossing, stances
 from ..robot.geometry import TwoFrames
 from ..robot.workspace import Part, best_directions, stride, workspace
 
@@ -184,21 +184,18 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
         crossing: One that was found.
         path: Picture file (`drawing`).
     """
-    stances = [(-1, crossing.start.copy())]
-    for slide in crossing.slides:
-        poses = stances[-1][1].copy()
-        poses[slide.frame] = slide.way[-1]
-        stances.append((slide.frame, poses))
-    feet = np.array([crossing.footing.feet_at(poses) for _, poses in stances])
+    shown = stances(crossing.start, crossing.slides)
+    slid = (-1, *(slide.frame for slide in crossing.slides))
+    feet = np.array([crossing.footing.feet_at(poses) for poses in shown])
     low, high = feet.reshape(-1, 2).min(axis=0) - 0.05, feet.reshape(-1, 2).max(axis=0) + 0.05
-    rows = math.ceil(len(stances) / COLUMNS)
+    rows = math.ceil(len(shown) / COLUMNS)
     wide = 2.6
     tall = wide * float((high[1] - low[1]) / (high[0] - low[0]))
     with drawing(path, (wide * COLUMNS, (tall + 0.3) * rows + 0.5)) as figure:
         grid = figure.subplots(rows, COLUMNS, squeeze=False)
         for axes in grid.flat:
             axes.set_axis_off()
-        for k, (axes, (frame, poses)) in enumerate(zip(grid.flat, stances, strict=False)):
+        for k, (axes, frame, poses) in enumerate(zip(grid.flat, slid, shown, strict=False)):
             _stance(axes, crossing, frame, poses)
             axes.set(xlim=(low[0] * MM, high[0] * MM), ylim=(low[1] * MM, high[1] * MM), aspect="equal")
             words = (

@@ -1,7 +1,7 @@
 """How a walker crosses a ditch: pivot to where its frames reach over, then slide frame by frame, the fewest slides first."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Final, Literal
@@ -120,20 +120,26 @@ class Crossing:
 
     def replay(self) -> tuple[SlideMargins, ...]:
         """Margins of every slide, from poses alone."""
-        poses = self.start.copy()
-        out = []
-        for slide in self.slides:
-            assert np.allclose(slide.way[0], poses[slide.frame], atol=1e-9)
-            out.append(slide_margins(self.footing, self.width, slide, poses))
-            poses[slide.frame] = slide.way[-1]
-        return tuple(out)
+        before = stances(self.start, self.slides)
+        return tuple(
+            slide_margins(self.footing, self.width, slide, poses)
+            for slide, poses in zip(self.slides, before, strict=False)
+        )
 
     def end(self) -> Floats:
         """Poses of both frames after all slides, shape (2, 3)."""
-        poses = self.start.copy()
-        for slide in self.slides:
-            poses[slide.frame] = slide.way[-1]
-        return poses
+        return stances(self.start, self.slides)[-1]
+
+
+def stances(start: Floats, slides: Iterable[Slide]) -> list[Floats]:
+    """Poses of both frames on the ground before the first slide and after each, every one of shape (2, 3)."""
+    out = [start]
+    for slide in slides:
+        assert np.allclose(slide.way[0], out[-1][slide.frame], atol=1e-9)
+        poses = out[-1].copy()
+        poses[slide.frame] = slide.way[-1]
+        out.append(poses)
+    return out
 
 
 def slide_margins(footing: Footing, width: float, slide: Slide, poses: Floats) -> SlideMargins:
@@ -213,16 +219,16 @@ def cross_ditch(
         return none(f"the widest ditch that it crosses at any angle of a grid of 1 deg is {best * 1e3:.6g} mm", best)
     for aim in aims:
         turned = _as_slides(start, aim.moves)
-        if _stays_before(footing, start, turned) and _holds(footing, width, start, turned):
+        standing = stances(start, turned)
+        before = all(footing.feet_at(poses)[:, :, 0].max() <= -footing.pad_radius for poses in standing)
+        margins = (slide_margins(footing, width, *each) for each in zip(turned, standing, strict=False))
+        if before and all(one.least >= -1e-9 for one in margins):
             break
     else:
         return none(
             "it cannot pivot where it stands, over its own feet and before the ditch; start farther off", aims[0].widest
         )
-    poses = start.copy()
-    for slide in turned:
-        poses[slide.frame] = slide.way[-1]
-    slides = _slides(footing, width, poses, aside)
+    slides = _slides(footing, width, standing[-1], aside)
     if slides is None:
         return none("from where it stands no row of slides leads across", aim.widest)
     return Crossing(
@@ -267,24 +273,6 @@ def _as_slides(start: Floats, moves: Sequence[tuple[int, float]]) -> list[Slide]
         out.append(Slide(frame, np.array([poses[frame], after])))
         poses[frame] = after
     return out
-
-
-def _stays_before(footing: Footing, start: Floats, turns: Sequence[Slide]) -> bool:
-    poses = start.copy()
-    for slide in turns:
-        poses[slide.frame] = slide.way[-1]
-        if footing.feet_at(poses)[:, :, 0].max() > -footing.pad_radius:
-            return False
-    return True
-
-
-def _holds(footing: Footing, width: float, start: Floats, turns: Sequence[Slide]) -> bool:
-    poses = start.copy()
-    for slide in turns:
-        if slide_margins(footing, width, slide, poses).least < -1e-9:
-            return False
-        poses[slide.frame] = slide.way[-1]
-    return True
 
 
 def _slides(footing: Footing, width: float, poses: Floats, aside: bool) -> list[Slide] | None:

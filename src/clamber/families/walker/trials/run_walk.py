@@ -37,7 +37,7 @@ from ..execution.walking import Lay, Progress, Walking
 from ..planning import Walk
 from ..planning.walk import why_it_tips
 from ..robot.ditch import Footing
-from ..robot.ditch_plan import Crossing, cross_ditch
+from ..robot.ditch_plan import Crossing, cross_ditch, stances
 from ..robot.weight import weight_of
 from ..sim.walker_flaws import WalkerFlaws
 from ..sim.walker_plant import WalkerSim
@@ -73,11 +73,11 @@ def plan_crossing(walk: Walk) -> Crossing:
 
 def crossing_steps(found: Crossing) -> tuple[PlannedStep, ...]:
     """The slides of a crossing as steps."""
-    poses, steps = found.start.copy(), []
-    for slide in found.slides:
-        steps.append(PlannedStep(slide.frame, slide.way[1:], poses[1 - slide.frame].copy()))
-        poses[slide.frame] = slide.way[-1]
-    return tuple(steps)
+    before = stances(found.start, found.slides)
+    return tuple(
+        PlannedStep(slide.frame, slide.way[1:], poses[1 - slide.frame])
+        for slide, poses in zip(found.slides, before, strict=False)
+    )
 
 
 def lay_crossing(walk: Walk) -> Lay:
