@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from walkers import ROBOTS, hoshino, random_q
+from walkers import ROBOTS, hoshino, random_q, switch
 
 from clamber.families.walker.control.cooperative.cooperator import Cooperator
-from clamber.families.walker.control.cooperative.freedoms import BODY, FreedomsError, freedoms_of, switch, weights_of
+from clamber.families.walker.control.cooperative.freedoms import BODY, FreedomsError, freedoms_of, weights_of
 from clamber.families.walker.control.cooperative.limits import chain_of
 from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet
 from clamber.families.walker.control.cooperative.scratch import make_scratch, see_measure, see_tool

@@ -8,10 +8,9 @@ from test_limits import START, Judge
 from walkers import hoshino
 
 from clamber.families.walker.control.cooperative.cooperator import Cooperator
-from clamber.families.walker.control.cooperative.freedoms import weights_of
-from clamber.families.walker.control.cooperative.holding import ToolHolder
+from clamber.families.walker.control.cooperative.freedoms import HEIGHT, weights_of
+from clamber.families.walker.control.cooperative.holding import RedundancyAllocation, ToolHolder
 from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
-from clamber.families.walker.control.cooperative.redundancy_allocation import HEIGHT, RedundancyAllocation
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
 from clamber.families.walker.execution.free_base_freedoms import open_share
 from clamber.types import Floats
@@ -44,7 +43,7 @@ def test_with_nothing_lent_it_is_the_arm_alone(support: Support) -> None:
         pose = START[:6] + k * PERIOD * np.array([0.005, 0.002, 0.001, 0.01, 0.0, 0.0])
         q[:6] = pose
         plate.stand(q, support, PLACE, FLAT, (0.3, 0.45))
-        q = plate.step(q, target, weights).q
+        q = plate.law.hold(q, target, weights).q
         np.testing.assert_allclose(q, holder.step(pose, target, weights).q, atol=1e-9)
 
 
@@ -66,7 +65,7 @@ def test_no_limit_is_broken_and_the_plate_stays_within_its_room(support: Support
     target = plate.law.place(q) + rng.uniform(-0.4, 0.4, 3)
     for _ in range(400):
         plate.stand(q, support, PLACE, heights, room)
-        after = plate.step(q, target, with_height(1.0)).q
+        after = plate.law.hold(q, target, with_height(1.0)).q
         assert judge.excess(q, after) <= 1e-9
         assert room[0] - 1e-12 <= after[HEIGHT] <= room[1] + 1e-12
         q = after
@@ -78,7 +77,7 @@ def test_a_plate_that_is_sensed_beyond_its_room_comes_back_and_the_arm_goes_on()
     target = plate.law.place(q) + np.array([0.0, 0.0, 0.03])
     for _ in range(400):
         plate.stand(q, "y", PLACE, FLAT, room)
-        q = plate.step(q, target, with_height(1.0)).q
+        q = plate.law.hold(q, target, with_height(1.0)).q
     assert q[HEIGHT] <= room[1]
     assert np.linalg.norm(plate.law.place(q) - target) < 1e-5
 
@@ -95,7 +94,7 @@ def test_rates_do_not_jump_where_the_height_is_lent_and_taken_back() -> None:
         before = q.copy()
         q[0] += PERIOD * 0.005
         plate.stand(q, "y", PLACE, FLAT, (0.33, 0.45))
-        moved = plate.step(q, target, with_height(open_share(time, 14.0 - time))).q
+        moved = plate.law.hold(q, target, with_height(open_share(time, 14.0 - time))).q
         rates.append((moved - before) / PERIOD)
         q = moved
     rates_of = np.array(rates)[150:]  # 3 s for the arm to come to the point
@@ -116,7 +115,7 @@ def test_it_is_the_arms_own_manipulability_that_grows() -> None:
         q = START.copy()
         for _ in range(1500):
             plate.stand(q, "y", PLACE, FLAT, (0.33, 0.43))
-            step = plate.step(q, target, with_height(share))
+            step = plate.law.hold(q, target, with_height(share))
             own = plate.law.measure(q, arm)
             assert step.measure == pytest.approx(own, rel=1e-9)
             q = step.q

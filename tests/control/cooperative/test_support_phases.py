@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from test_equation_19 import law
 from test_limits import START, Judge
-from walkers import hoshino
+from walkers import hoshino, switch
 
-from clamber.families.walker.control.cooperative.cooperator import Cooperator
-from clamber.families.walker.control.cooperative.freedoms import Freedoms, switch, weights_of
+from clamber.families.walker.control.cooperative.cooperator import Cooperator, stable_gain
+from clamber.families.walker.control.cooperative.freedoms import Freedoms, weights_of
 from clamber.families.walker.control.cooperative.planted_feet import PlantedFeet, Support
 from clamber.families.walker.control.cooperative.settings import Cooperation, own_speeds
-from clamber.families.walker.control.cooperative.stable_gain import stable_gain
 from clamber.types import Floats
 
 PHASES: tuple[tuple[Support, Freedoms], ...] = (

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from clamber.control.quintic import quintic_share
 from clamber.families.walker.robot import WalkerRobot
 from clamber.tasks.robots import load_robot
 from clamber.types import Floats
@@ -18,10 +19,9 @@ def hoshino() -> WalkerRobot:
 def with_links(links: tuple[float, ...], masses: tuple[float, ...] | None = None) -> WalkerRobot:
     """The robot with an arm of other links."""
     robot = hoshino()
-    assert robot.arm is not None
     n = len(links)
     arm = replace(
-        robot.arm,
+        robot.own_arm,
         links=links,
         masses=masses or tuple(1.0 + 0.5 * k for k in range(n)),
         lowest=(-3.0,) * (n + 1),
@@ -49,6 +49,17 @@ def random_q(robot: WalkerRobot, seed: int, tilt: float = 0.6) -> Floats:
     out[:6] *= np.array([0.3, 0.3, 0.3, 3.0, tilt, tilt])
     out[2] += 0.4
     out[6:] *= 2.5
+    return out
+
+
+def switch(before: Floats, after: Floats, part: float) -> Floats:
+    """Weights on the way from one set to another: speeds and accelerations of the switching are 0 at both ends.
+
+    Args:
+        before, after: Weights, shape (m,).
+        part: Of the switching's time that has passed, [0, 1].
+    """
+    out: Floats = before + quintic_share(part) * (after - before)
     return out
 
 

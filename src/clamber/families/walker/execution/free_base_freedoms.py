@@ -12,7 +12,7 @@ import numpy as np
 
 from ....control.quintic import quintic_share
 from ....types import Floats
-from ..control.cooperative.redundancy_allocation import HEIGHT
+from ..control.cooperative.freedoms import HEIGHT
 
 FADE: Final = 1.0
 """In which a freedom is faded in, and out again before its phase ends [s]."""

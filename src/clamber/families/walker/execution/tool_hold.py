@@ -17,10 +17,9 @@ from ....json_form import Jsonable
 from ....types import Floats
 from ..control.cooperative.closest import ReachSearch
 from ..control.cooperative.cooperator import Cooperator
-from ..control.cooperative.freedoms import weights_of
-from ..control.cooperative.holding import ToolHolder, reachable_part
+from ..control.cooperative.freedoms import HEIGHT, weights_of
+from ..control.cooperative.holding import TOOL_SPEED, RedundancyAllocation, ToolHolder, reachable_part
 from ..control.cooperative.planted_feet import PlantedFeet
-from ..control.cooperative.redundancy_allocation import HEIGHT, RedundancyAllocation
 from ..control.cooperative.settings import Cooperation, own_speeds
 from ..control.cooperative.tool_chain import POSE
 from ..control.track import Track
@@ -75,8 +74,6 @@ GENTLY: Final = 0.5
 """Share of its joints' speed at which the arm comes and leaves [-]."""
 PEAK: Final = 1.875
 """Largest speed of a quintic motion from rest to rest, over its mean [-]."""
-TOOL_SPEED: Final = 0.2
-"""By which the tool's motion is measured in the law [m/s]."""
 GAIN: Final = 0.5
 """Of the manipulability's gradient: the joint that the tool leaves free goes where the arm moves best [-]."""
 
@@ -130,8 +127,7 @@ class ToolHold:
 
     def __init__(self, walker: Walker, track: Track, points: Floats, within: float, served: Served = "arm") -> None:
         robot = walker.robot
-        assert robot.arm is not None, "only robots with an arm hold something"
-        self._arm = robot.arm
+        self._arm = robot.own_arm
         self._rest = walker.arm.copy()
         self._ways = _spread(0.0, track.length, GRID)
         self._heights = predict_heights(walker, track, self._rest) if served == "height" else None
@@ -147,7 +143,7 @@ class ToolHold:
         settings = Cooperation(speeds=speeds, tool_speeds=np.full(3, TOOL_SPEED), gain=GAIN, period=walker.period)
         footing = PlantedFeet(robot=robot, support="y", pose=self._poses[0])
         self._law = Cooperator(robot, settings, footing, "arm")
-        self._weights = weights_of("arm", robot.arm.n_joints)
+        self._weights = weights_of("arm", self._arm.n_joints)
         self._holder: ToolHolder | None = None
         self._way = 0.0
         self._joints = self._joints_at(walker)
@@ -292,7 +288,7 @@ class ToolHold:
             q, "both" if delta and y else "delta" if delta else "y", walker.place, walker.heights.reshape(2, 3),
             (room.lowest, room.highest),
         )  # fmt: skip
-        self._holder.q = self._lent.step(q, target, weights).q
+        self._holder.q = self._lent.law.hold(q, target, weights).q
         motions.raise_plate(walker, float(self._holder.q[HEIGHT] - q[HEIGHT]))
         joints: Floats = self._holder.q[POSE:]
         return joints

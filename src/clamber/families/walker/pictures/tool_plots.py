@@ -56,8 +56,7 @@ def robot_lines(footing: PlantedFeet, q: Floats) -> Iterator[tuple[Floats, str, 
         if frame in footing.standing():
             for top, foot in zip(over[frame], feet[frame], strict=True):
                 yield np.array([top, foot]), colour, 1.4
-    assert robot.arm is not None, "only robots with an arm follow paths"
-    arm = np.vstack([np.zeros(3), [0.0, 0.0, robot.arm.up], arm_places(robot.arm, q[6:].tolist())])
+    arm = np.vstack([np.zeros(3), [0.0, 0.0, robot.own_arm.up], arm_places(robot.own_arm, q[6:].tolist())])
     yield arm @ turn.T + origin, ARM, 2.6
 
 

@@ -144,6 +144,12 @@ class WalkerRobot(Pictured):
     sources: Mapping[str, Provenance] = field(default_factory=dict)
     """Dotted key of the file -> the number as written and its source."""
 
+    @property
+    def own_arm(self) -> Arm:
+        """Its arm, where only robots with one come."""
+        assert self.arm is not None, "only robots with an arm move it"
+        return self.arm
+
     def attachments(self) -> Floats:
         """Attachments of both frames, each in its own frame [m], shape (2, 3, 2)."""
         return self.mechanism.attachments()

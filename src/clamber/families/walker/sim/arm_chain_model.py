@@ -28,8 +28,7 @@ def chain_model(robot: WalkerRobot) -> Any:
     """
     import mujoco
 
-    arm = robot.arm
-    assert arm is not None, "only robots with an arm have the chain"
+    arm = robot.own_arm
     spec = mujoco.MjSpec()
     plate = spec.worldbody.add_body(name="plate", mass=1.0, inertia=(1.0, 1.0, 1.0), explicitinertial=True)
     for k, (name, axis) in enumerate(PLATE):

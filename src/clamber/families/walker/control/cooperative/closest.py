@@ -74,8 +74,8 @@ class ReachSearch:
             balance: Least distance of the centre of mass from the support's edges [m].
             kept: Which limits bound the places.
         """
-        assert robot.arm is not None, "only robots with an arm move it"
-        speeds = np.array([*TRUST, *np.full(robot.arm.n_joints, TURN)])
+        arm = robot.own_arm
+        speeds = np.array([*TRUST, *np.full(arm.n_joints, TURN)])
         settings = Cooperation(
             speeds=speeds,
             tool_speeds=np.ones(3),
@@ -90,7 +90,6 @@ class ReachSearch:
         self._law = self._laws[-1]
         self._law.check_weights(weights)
         self._weights = weights
-        arm = robot.arm
         low, high = np.array(arm.lowest), np.array(arm.highest)
         rng = np.random.default_rng(0)
         own = 0.5 * (low + high) + 0.45 * (high - low) * rng.uniform(-1.0, 1.0, (10, arm.n_joints))

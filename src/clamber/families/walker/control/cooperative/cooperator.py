@@ -22,6 +22,8 @@ CONTRADICTED: Final = -1
 ATTEMPTS: Final = 4
 TIGHT: Final = 1e-7
 """A multiplier of the programme above this marks a limit that holds the motion back [-]."""
+NUDGE: Final = 1e-5
+"""Of a freedom, for the derivative of the manipulability's gradient [m, rad]."""
 
 
 @dataclass(slots=True, eq=False)
@@ -183,6 +185,13 @@ class Cooperator:
         tight = tuple(np.flatnonzero(self._tight > TIGHT).tolist())
         return Step(w.after.copy(), place, measure, share, tight, solved)
 
+    def hold(self, q: Floats, point: Floats, weights: Floats) -> Step:
+        """The configuration one period later, the tool brought to a point of the world [m], shape (3,), in that period.
+
+        A body that walks carries the tool off within a period, and one period's motion takes it back. Other arguments as in `step`.
+        """
+        return self.step(q, point, np.zeros(3), weights, feedback=1.0 / self.settings.period)
+
     def _solve(self, count: int) -> tuple[Floats, Floats, bool]:
         """Solution, multipliers, and whether there is one; else rest, which every limit allows."""
         import daqp
@@ -199,3 +208,37 @@ class Cooperator:
             else:  # the method cycles where a tool's motion that cannot be had outweighs the rest by too many digits
                 p.rows[:3, m:] *= 10.0
         return np.zeros(m + 3), np.zeros(m + count), False
+
+
+def stable_gain(law: Cooperator, q: Floats, weights: Floats) -> float:
+    """The gain k_p below which equation 19's second term comes to rest at a summit of V near a configuration.
+
+    In steps of dt, a deviation from the summit along a direction that leaves the tool where it is, is multiplied by 1 + k_p dt h, with
+    h < 0 the slope of the second term's own strength (I - J^+ J^) dV/dq^ in that direction: it shrinks while k_p dt |h| < 2. The slopes
+    are taken at `q`; the projection turns with the posture, so they are not those of the gradient alone.
+
+    Args:
+        law: With its settings.
+        q: Freedoms, shape (m,).
+        weights: Of the freedoms, shape (m,).
+
+    Returns:
+        2 / (dt |h|) for the steepest slope [-]; infinite where V rises to no summit.
+    """
+    speeds = weights * law.settings.speeds
+
+    def projector(p: Floats) -> Floats:
+        scaled = law.scaled_jacobian(p, weights)
+        out: Floats = np.eye(p.size) - np.linalg.pinv(scaled) @ scaled
+        return out
+
+    slopes = np.empty((q.size, q.size))
+    for k in range(q.size):
+        ahead, behind = q.copy(), q.copy()
+        ahead[k] += NUDGE
+        behind[k] -= NUDGE
+        change = projector(ahead) @ law.gradient(ahead, weights) - projector(behind) @ law.gradient(behind, weights)
+        slopes[:, k] = speeds[k] * change / (2.0 * NUDGE)
+    rest = projector(q)
+    steepest = float(np.linalg.eigvals(rest @ slopes @ rest).real.min())
+    return float("inf") if steepest >= 0.0 else 2.0 / (law.settings.period * -steepest)

@@ -1,20 +1,21 @@
-"""Which freedoms take part: named sets, and their switching on and off, smooth in time."""
+"""Which freedoms take part: named sets."""
 
 from typing import Final, Literal
 
 import numpy as np
 
-from .....control.quintic import quintic_share
 from .....errors import StatedError
 from .....types import Floats
 from .planted_feet import Support
 from .tool_chain import POSE
 
+HEIGHT: Final = 2
+"""Place of z among the freedoms."""
 Freedoms = Literal["arm", "height", "levelling", "all"]
 BODY: Final[dict[Freedoms, tuple[int, ...]]] = {
     "arm": (),
-    "height": (2,),
-    "levelling": (2, 4, 5),
+    "height": (HEIGHT,),
+    "levelling": (HEIGHT, 4, 5),
     "all": (0, 1, 2, 3, 4, 5),
 }
 """Set -> freedoms of the plate that it has beside the arm's: none; z; z, beta, gamma, all that moves while the Delta-frame stands; all."""
@@ -49,15 +50,4 @@ def weights_of(freedoms: Freedoms, n_joints: int) -> Floats:
     out = np.zeros(POSE + n_joints)
     out[list(BODY[freedoms])] = 1.0
     out[POSE:] = 1.0
-    return out
-
-
-def switch(before: Floats, after: Floats, part: float) -> Floats:
-    """Weights on the way from one set to another: speeds and accelerations of the switching are 0 at both ends.
-
-    Args:
-        before, after: Weights, shape (m,).
-        part: Of the switching's time that has passed, [0, 1].
-    """
-    out: Floats = before + quintic_share(part) * (after - before)
     return out

@@ -5,8 +5,7 @@ from typing import Literal
 import numpy as np
 
 from ...robot import WalkerRobot
-from .arm_moment import arm_moment
-from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, PlantedFeet
+from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, PlantedFeet, arm_moment
 from .scratch import Chain
 from .tool_chain import POSE
 
@@ -23,8 +22,7 @@ def chain_of(robot: WalkerRobot, *, balance: float, footing: PlantedFeet | None 
         footing: Which legs stand: only they, and the mechanism while it moves, are bounded; None: all.
         kept: Which limits.
     """
-    arm = robot.arm
-    assert arm is not None, "only robots with an arm move it"
+    arm = robot.own_arm
     lowest, highest, speed = np.full(N_ROWS, -np.inf), np.full(N_ROWS, np.inf), np.full(N_ROWS, np.inf)
     if footing is None or footing.support == "y":
         rows = slice(ACTUATOR, GUARD)
@@ -54,8 +52,7 @@ def chain_of(robot: WalkerRobot, *, balance: float, footing: PlantedFeet | None 
 
 def freedom_names(robot: WalkerRobot) -> tuple[str, ...]:
     """Names of the freedoms."""
-    assert robot.arm is not None, "only robots with an arm move it"
-    return ("x", "y", "z", "alpha", "beta", "gamma", *(f"theta{k}" for k in range(robot.arm.n_joints)))
+    return ("x", "y", "z", "alpha", "beta", "gamma", *(f"theta{k}" for k in range(robot.own_arm.n_joints)))
 
 
 def limit_names(robot: WalkerRobot) -> tuple[str, ...]:

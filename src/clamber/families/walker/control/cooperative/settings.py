@@ -90,16 +90,15 @@ def stretch(settings: Cooperation, robot: WalkerRobot) -> float:
     i L_i. Damped by lambda they go back by s dt sigma / lambda^2 in a step, at the tool's full speed. More than 2 d shakes; with lambda^2
     equal to s^2 dt H / v it is d at most.
     """
-    assert robot.arm is not None, "only robots with an arm move it"
-    bent = math.fsum((i + 1) * length for i, length in enumerate(robot.arm.links)) + abs(robot.arm.out)
+    bent = math.fsum((i + 1) * length for i, length in enumerate(robot.own_arm.links)) + abs(robot.own_arm.out)
     fastest = float(np.max(settings.speeds[6:]))
     return fastest * fastest * settings.period * bent / float(np.min(settings.tool_speeds))
 
 
 def swerve(settings: Cooperation, robot: WalkerRobot) -> float:
     """The same of the plate in a corner of its limits, which are curved by no less than an actuator's shortest length [-]."""
-    assert robot.arm is not None, "only robots with an arm move it"
-    reach = sum(robot.arm.links) + abs(robot.arm.out) + abs(robot.arm.up)
+    arm = robot.own_arm
+    reach = sum(arm.links) + abs(arm.out) + abs(arm.up)
     fastest = max(float(np.max(settings.speeds[:3])), reach * float(np.max(settings.speeds[3:6])))
     return fastest * fastest * settings.period / (robot.mechanism.shortest * float(np.min(settings.tool_speeds)))
 
@@ -110,13 +109,12 @@ def own_speeds(robot: WalkerRobot) -> Floats:
     Returns:
         Shape (6 + joints,).
     """
+    from .limits import chain_of
     from .scratch import make_scratch, see_bounds, see_tool
 
-    assert robot.arm is not None, "only robots with an arm move it"
-    from .limits import chain_of
-
-    q = np.array([0.0, 0.0, robot.legs.nominal, 0.0, 0.0, 0.0, *robot.arm.rest])
-    chain, w = chain_of(robot, balance=0.0), make_scratch(robot.arm.n_joints)
+    arm = robot.own_arm
+    q = np.array([0.0, 0.0, robot.legs.nominal, 0.0, 0.0, 0.0, *arm.rest])
+    chain, w = chain_of(robot, balance=0.0), make_scratch(arm.n_joints)
     footing = PlantedFeet(robot=robot, support="y", pose=q[:6]).record()
     see_tool(chain, q, w)
     see_bounds(chain, footing[0], q, w)
@@ -125,5 +123,5 @@ def own_speeds(robot: WalkerRobot) -> Floats:
     for k in range(6):
         rows = range(ACTUATOR, ACTUATOR + 3) if k in (0, 1, 3) else range(LEG, BALANCE)
         out[k] = min(fastest[row] / abs(w.gradients[row, k]) for row in rows if w.gradients[row, k] != 0.0)
-    out[6:] = robot.arm.fastest
+    out[6:] = arm.fastest
     return out

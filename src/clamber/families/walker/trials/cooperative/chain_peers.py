@@ -46,8 +46,7 @@ def pink_tick(robot: WalkerRobot, speeds: Floats, *, limited: bool) -> Tick:
     from pink.limits import ConfigurationLimit, VelocityLimit
     from pink.tasks import FrameTask
 
-    arm = robot.arm
-    assert arm is not None, "only robots with an arm have the chain"
+    arm = robot.own_arm
     model = pinocchio.Model()
     unit = pinocchio.SE3.Identity()
     kinds = [

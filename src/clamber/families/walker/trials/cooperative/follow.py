@@ -10,12 +10,11 @@ from .....execution.log import Log
 from .....json_form import HIDDEN, Count, Jsonable, Key, in_json
 from .....types import Floats
 from ...control.cooperative.closest import Reach, ReachSearch
-from ...control.cooperative.cooperator import Cooperator
+from ...control.cooperative.cooperator import Cooperator, stable_gain
 from ...control.cooperative.freedoms import SUPPORT, Freedoms, freedoms_of, weights_of
 from ...control.cooperative.limits import freedom_names
 from ...control.cooperative.planted_feet import N_ROWS, ROW_UNITS, PlantedFeet
 from ...control.cooperative.settings import Cooperation, CooperationError, own_speeds
-from ...control.cooperative.stable_gain import stable_gain
 from ...robot import WalkerRobot
 from .simulated_body import SimulatedBody
 from .tool_path import TimedPath, ToolPath

@@ -1,6 +1,5 @@
 """A walker that stands in contact dynamics and is led through configurations of body and arm."""
 
-import math
 from typing import Any, Final
 
 import numpy as np
@@ -10,6 +9,7 @@ from ...control.cooperative.cooperator import Cooperator
 from ...control.cooperative.planted import heading_change, turn_of
 from ...control.cooperative.planted_feet import LEG, PlantedFeet, Support
 from ...control.cooperative.tool_chain import POSE
+from ...control.posture import tilt_of_inclines
 from ...robot import WalkerRobot
 from ...robot.geometry import TwoFrames
 from ...sim.walker_flaws import WalkerFlaws
@@ -45,8 +45,7 @@ class FeltBody:
         Returns:
             Shape (6 + joints,).
         """
-        beta = -float(inclines[0])
-        gamma = math.asin(max(-1.0, min(1.0, math.sin(inclines[1]) / math.cos(beta))))
+        beta, gamma = tilt_of_inclines(float(inclines[0]), float(inclines[1]))
         alpha = self._heading + float(heading_change(beta, gamma))
         origin_in_plate = np.zeros(3)
         if self._frame == 1:
@@ -71,20 +70,18 @@ class SimulatedBody:
 
     def __init__(self, robot: WalkerRobot, support: Support, height: float, payload: float, period: float) -> None:
         """Put it down with its arm at rest and let it settle."""
-        arm = robot.arm
-        assert arm is not None, "only robots with an arm follow paths"
         flaws = WalkerFlaws(payload=payload, control_rate=1.0 / period)
         self._sim = WalkerSim(robot, load_ground("level"), flaws)
         self._legs = np.full((2, 3), height)
         self._standing = 0 if support == "delta" else 1
         self._legs[1 - self._standing] -= min(robot.legs.lift, height - robot.legs.shortest)
         pose = np.array([0.0, 0.0, height, 0.0, 0.0, 0.0])
-        self._sim.reset(pose, np.zeros(3), self._legs, np.array(arm.rest))
+        self._sim.reset(pose, np.zeros(3), self._legs, np.array(robot.own_arm.rest))
         sensed = self._sim.sense()
         self._actuators = sensed.actuators.copy()
         # It has sunk a little into its springy feet. Where it stands now is where its path is measured from.
         bare = PlantedFeet(robot=robot, support=support, pose=self._sim.truth().pose.copy(), payload=payload)
-        self.start = np.concatenate([bare.pose, arm.rest])
+        self.start = np.concatenate([bare.pose, robot.own_arm.rest])
         heights = _heights(bare, self._legs)
         self.footing = PlantedFeet(robot=robot, support=support, pose=bare.pose, heights=heights, payload=payload)
         self._felt = FeltBody(self.footing)
