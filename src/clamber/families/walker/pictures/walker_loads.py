@@ -1,7 +1,7 @@
 """What a walker's parts bear, against their limits: forces and lengths of legs and actuators, and the grip that its feet use."""
 
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 
@@ -11,12 +11,14 @@ from ....viewing.panel import Gauges
 from ..control.gait import lengths_at
 from ..execution.true_walk import TrueWalk
 from ..execution.walk_scene import plate_axes
-from ..robot import LEG_NAMES, WalkerRobot
+from ..robot import LEG_NAMES, Legs, Mechanism, WalkerRobot
 from ..world.ground import Ground
 from .walker_motion import COLOURS
 
-LEGS: Final = tuple(map(str.capitalize, LEG_NAMES))
-ACTUATORS: Final = tuple(f"actuator {i + 1}" for i in range(3))
+Bars: TypeAlias = tuple[tuple[str, str], ...]
+"""Name and colour of each."""
+LEG_BARS: Final[Bars] = tuple((name.capitalize(), COLOURS[k // 3]) for k, name in enumerate(LEG_NAMES))
+ACTUATOR_BARS: Final[Bars] = tuple((f"actuator {i + 1}", style.HOLD) for i in range(3))
 NEAR_END: Final = 0.05
 """Share of the stroke from either end at which a bar of length turns red [-]."""
 NEAR_LIMIT: Final = 0.9
@@ -107,37 +109,28 @@ def plate_normals(poses: Floats) -> Floats:
 
 def actuator_gauges(robot: WalkerRobot) -> Gauges:
     """One bar per actuator, from drawn in to extended."""
-    return _lengths("Actuator lengths", ACTUATORS, (style.HOLD,) * 3, robot.mechanism.shortest, robot.mechanism.longest)
+    return _lengths("Actuator lengths", ACTUATOR_BARS, robot.mechanism)
 
 
 def leg_gauges(robot: WalkerRobot) -> Gauges:
     """One bar per leg, from drawn in to extended."""
-    return _lengths("Leg lengths", LEGS, _by_frame(), robot.legs.shortest, robot.legs.longest)
+    return _lengths("Leg lengths", LEG_BARS, robot.legs)
 
 
 def leg_force_gauges(robot: WalkerRobot, weight: float) -> Gauges:
     """One bar per leg: the force along it, up to what its motor can give or, where no limit is stated, the robot's weight [N]."""
-    return _forces("Force along each leg", LEGS, _by_frame(), robot.legs.force, weight, WHOLE)
+    return _forces("Force along each leg", LEG_BARS, robot.legs.force, weight, WHOLE)
 
 
 def thrust_gauges(robot: WalkerRobot, most: float) -> Gauges:
     """One bar per actuator: the force that it pushes or pulls with, up to its limit or, where none is stated, to the most of a walk [N]."""
-    return _forces("Actuator forces", ACTUATORS, (style.HOLD,) * 3, robot.mechanism.force, most, MOST)
+    return _forces("Actuator forces", ACTUATOR_BARS, robot.mechanism.force, most, MOST)
 
 
 def grip_gauges() -> Gauges:
     """One bar per foot: the share of its friction that is in use."""
-    return Gauges(
-        title="Grip in use",
-        names=LEGS,
-        colours=_by_frame(),
-        low=np.zeros(6),
-        high=np.ones(6),
-        limits=((1.0, "slips"),),
-        calm=(0.0, NEAR_LIMIT),
-        unit=("%", 0.01, 0),
-        group=3,
-    )
+    limits, unit = ((1.0, "slips"),), ("%", 0.01, 0)
+    return _gauges("Grip in use", LEG_BARS, 0.0, 1.0, limits=limits, calm=(0.0, NEAR_LIMIT), unit=unit)
 
 
 def grip_in_use(forces: Floats, normal: Floats, friction: float, weight: float) -> Floats:
@@ -156,37 +149,20 @@ def grip_in_use(forces: Floats, normal: Floats, friction: float, weight: float) 
     return share
 
 
-def _by_frame() -> tuple[str, ...]:
-    return tuple(colour for colour in COLOURS for _ in range(3))
+def _lengths(title: str, bars: Bars, part: Legs | Mechanism) -> Gauges:
+    limits, calm = ((0.0, "shortest"), (1.0, "longest")), (NEAR_END, 1.0 - NEAR_END)
+    return _gauges(title, bars, part.shortest, part.longest, limits=limits, calm=calm, unit=("cm", 0.01, 1))
 
 
-def _lengths(title: str, names: tuple[str, ...], colours: tuple[str, ...], shortest: float, longest: float) -> Gauges:
-    return Gauges(
-        title=title,
-        names=names,
-        colours=colours,
-        low=np.full(len(names), shortest),
-        high=np.full(len(names), longest),
-        limits=((0.0, "shortest"), (1.0, "longest")),
-        calm=(NEAR_END, 1.0 - NEAR_END),
-        unit=("cm", 0.01, 1),
-        group=3,
-    )
+def _forces(title: str, bars: Bars, limit: float | None, full: float, note: str) -> Gauges:
+    if limit is None:
+        unit = ("N", 1.0, 1 if full < FEW else 0)
+        return _gauges(title, bars, 0.0, full, limits=(), calm=(0.0, np.inf), unit=unit, note=note)
+    unit = ("N", 1.0, 1 if limit < FEW else 0)
+    return _gauges(title, bars, 0.0, limit, limits=((1.0, "limit"),), calm=(0.0, NEAR_LIMIT), unit=unit)
 
 
-def _forces(
-    title: str, names: tuple[str, ...], colours: tuple[str, ...], limit: float | None, full: float, note: str
-) -> Gauges:
-    decimals = 1 if (full if limit is None else limit) < FEW else 0
-    return Gauges(
-        title=title,
-        names=names,
-        colours=colours,
-        low=np.zeros(len(names)),
-        high=np.full(len(names), full if limit is None else limit),
-        limits=() if limit is None else ((1.0, "limit"),),
-        calm=(0.0, np.inf if limit is None else NEAR_LIMIT),
-        unit=("N", 1.0, decimals),
-        group=3,
-        note=note if limit is None else "",
-    )
+def _gauges(title: str, bars: Bars, low: float, high: float, **look: Any) -> Gauges:
+    names, colours = zip(*bars, strict=True)
+    ends = np.full(len(bars), low), np.full(len(bars), high)
+    return Gauges(title=title, names=names, colours=colours, low=ends[0], high=ends[1], group=3, **look)
