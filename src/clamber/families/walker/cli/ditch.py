@@ -125,13 +125,8 @@ def _tell_widest(footing: "Footing", aside: bool, as_json: bool, output: Output)
     if as_json:
         print_json(rows)
         return
-    table = plain_table(
-        "theta [deg]",
-        "widest [mm]",
-        "along [deg]",
-        "least of all directions [mm]",
-        right=("theta [deg]", "widest [mm]", "along [deg]", "least of all directions [mm]"),
-    )
+    columns = ("theta [deg]", "widest [mm]", "along [deg]", "least of all directions [mm]")
+    table = plain_table(*columns, right=columns)
     for row in rows:
         table.add_row(
             f"{row.theta_deg:g}",

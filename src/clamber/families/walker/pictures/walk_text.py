@@ -82,18 +82,19 @@ def _margin(margin: float, units: ShownUnits) -> str:
     return units.small(margin) if np.isfinite(margin) else "none: fewer than three feet on the ground"
 
 
+def _likely(interval: tuple[float, float]) -> str:
+    low, high = interval
+    return f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+
+
 def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]) -> None:
     """Print how often walks came to their end, and the spread of what is measured of them."""
     n = len(trials.ended)
-    low, high = trials.interval
     style = "bold green" if trials.done == n else "bold red"
     console.print(f"{trials.done} of {n} walks '{trials.setup.name}' came to their end", style=style)
-    console.print(f"95 % between {100 * low:.1f} and {100 * high:.1f} %")
+    console.print(_likely(trials.interval))
     console.print(seeds_in_words(seeds))
-    low, high = wilson_interval(trials.balanced, n)
-    console.print(
-        f"{trials.balanced} of {n} kept their balance throughout: 95 % between {100 * low:.1f} and {100 * high:.1f} %"
-    )
+    console.print(f"{trials.balanced} of {n} kept their balance throughout: {_likely(trials.balanced_interval())}")
     causes = trials.causes()
     if causes:
         print_causes(console, causes)
@@ -117,10 +118,9 @@ def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]
             table.add_row(title, *(f"{value:.{digits}f}" for value in told))
     console.print(table)
     if trials.setup.levels:
-        low, high = wilson_interval(trials.level, n)
         console.print(
             f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
-            f"95 % between {100 * low:.1f} and {100 * high:.1f} %"
+            f"{_likely(wilson_interval(trials.level, n))}"
         )
     walked = float(trials.of("seconds").sum())
     if trials.wall_seconds > 0.0:
