@@ -78,8 +78,7 @@ def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequ
         lower.set(ylabel="best fitness", xlabel="generation")
         lower.xaxis.set_major_locator(MaxNLocator(integer=True))
         for axes in (upper, lower):
-            style.ruled(axes, "y")
-            axes.set_axisbelow(True)
+            style.ruled(axes, "y", behind=True)
 
 
 def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) -> None:
@@ -121,8 +120,7 @@ def draw_torques(task: Task, replays: Mapping[str, Replay], path: str | Path) ->
         axes.set_xlim(left=0.0)
         axes.set(xlabel="step", ylabel=f"largest joint torque [{unit}]")
         axes.set_title("Largest joint torque of every step")
-        style.ruled(axes, "y")
-        axes.set_axisbelow(True)
+        style.ruled(axes, "y", behind=True)
         figure.legend(loc="outside lower center", ncols=2 if len(replays) > 1 else 1, fontsize=8)
 
 

@@ -60,7 +60,7 @@ def draw_panels(
         lines = {line.get_label(): line for axes in grid.flat for line in axes.get_legend_handles_labels()[0]}
         if lines:
             figure.legend(handles=[*lines.values()], loc="outside lower center", ncols=min(len(lines), 3), fontsize=8.5)
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+        style.entitle(figure, title)
 
 
 def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], path: str | Path) -> None:
@@ -80,4 +80,4 @@ def draw_angle_errors(inclined: Floats, errors: Mapping[str, Sequence[float]], p
         axes.set_ylabel("RMS error of the angle [deg]")
         style.ruled(axes)
         axes.legend(fontsize=8.5, loc="upper left")
-        figure.suptitle("The body's angle from two limbs", x=0.01, ha="left", fontsize=11, fontweight="bold")
+        style.entitle(figure, "The body's angle from two limbs")

@@ -5,6 +5,7 @@ from typing import Any, Final, Literal, TypeAlias
 
 from matplotlib import rc_context
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 PARTS: Final = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#8C564B", "#B5A900", "#6B6B6B")
 """Colour of each limb, in the robot's order."""
@@ -57,10 +58,17 @@ def bare(axes: Axes) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def ruled(axes: Axes, axis: Literal["both", "x", "y"] = "both") -> None:
-    """The same, with fine lines at the ticks of an axis or both."""
+def ruled(axes: Axes, axis: Literal["both", "x", "y"] = "both", *, behind: bool = False) -> None:
+    """The same, with fine lines at the ticks of an axis or both, behind everything else if told so."""
     bare(axes)
     axes.grid(color=FAINT, lw=0.6, axis=axis)
+    if behind:
+        axes.set_axisbelow(True)
+
+
+def entitle(figure: Figure, title: str, size: float = 11.0) -> None:
+    """Say above the whole figure, from its left edge on, what it shows."""
+    figure.suptitle(title, x=0.01, ha="left", fontsize=size, weight="bold")
 
 
 Line: TypeAlias = str | tuple[int, tuple[float, ...]]

@@ -104,8 +104,7 @@ def _curves(sweep: Sweep) -> Figure:
             textcoords="offset points", ha="center", fontsize=8, color=style.INK, annotation_clip=False,
         )  # fmt: skip
     for axes in (upper, lower):
-        style.ruled(axes, "y")
-        axes.set_axisbelow(True)
+        style.ruled(axes, "y", behind=True)
     title = f"'{sweep.task}' over {axis.key}: {sweep.found} of {len(points)} points have a plan"
     upper.set_title(title, pad=28.0 if sweep.marks else None)
     figure.legend(loc="outside lower center", ncols=3, fontsize=8)

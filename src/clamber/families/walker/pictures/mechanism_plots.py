@@ -54,13 +54,7 @@ def draw_regions(frames: TwoFrames, thetas: Sequence[float], path: str | Path) -
             Line2D([], [], color=style.ALERT, lw=1.0, ls=(0, (4, 3)), label="singular"),
         ]
         figure.legend(handles=handles, loc="outside lower center", ncols=4, fontsize=8)
-        figure.suptitle(
-            "Where the Y-frame's origin can be in the Delta-frame, by the angle between the frames",
-            x=0.01,
-            ha="left",
-            fontsize=11,
-            weight="bold",
-        )
+        style.entitle(figure, "Where the Y-frame's origin can be in the Delta-frame, by the angle between the frames")
 
 
 def _panel(axes: Axes, frames: TwoFrames, theta: float) -> None:
@@ -118,9 +112,7 @@ def draw_areas(thetas: Sequence[float], areas: Mapping[str, Floats], path: str |
         axes.set_ylim(bottom=0.0)
         axes.set_title("How large the region is")
         axes.legend(fontsize=8)
-        axes.grid(color=style.FAINT, lw=0.6)
-        axes.set_axisbelow(True)
-        style.bare(axes)
+        style.ruled(axes, behind=True)
 
 
 DELTA, Y = style.PARTS[0], style.PARTS[1]
@@ -171,9 +163,7 @@ def draw_ditch_curves(directions: Sequence[float], curves: Mapping[float, Floats
         axes.set_ylim(bottom=0.0)
         axes.set(xlabel="direction of crossing, in the Delta-frame [deg]", ylabel="widest ditch [mm]")
         axes.set_title("The widest ditch repeats every 60°")
-        axes.grid(color=style.FAINT, lw=0.6)
-        axes.set_axisbelow(True)
-        style.bare(axes)
+        style.ruled(axes, behind=True)
         figure.legend(loc="outside lower center", ncols=len(curves), fontsize=8)
 
 
@@ -202,13 +192,11 @@ def draw_crossing(crossing: Crossing, path: str | Path) -> None:
                 "start" if k == 0 else f"{k}: {('Delta', 'Y')[frame]} {'pivots' if k <= crossing.pivots else 'slides'}"
             )
             axes.set_title(words, fontsize=8.5, weight="normal")
-        figure.suptitle(
+        style.entitle(
+            figure,
             f"A ditch of {crossing.width * MM:g} mm: {crossing.pivots} pivots, "
             f"{len(crossing.slides) - crossing.pivots} slides (blue: Delta-frame, orange: Y-frame, dot: centre of mass)",
-            x=0.01,
-            ha="left",
-            fontsize=10,
-            weight="bold",
+            size=10,
         )
 
 

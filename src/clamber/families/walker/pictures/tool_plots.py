@@ -97,7 +97,7 @@ def draw_follow(run: FollowRun, path: str | Path) -> None:
         lower = figure.add_subplot(grid[1, 1], sharex=upper)
         _draw_over_time(upper, lower, run)
         title = f"{run.path.label}: {run.options.dof} degrees of freedom, {SUPPORT_WORDS[run.footing.support]} standing"
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11, fontweight="bold")
+        style.entitle(figure, title)
         figure.supxlabel(run.reason, fontsize=8.5, x=0.01, ha="left", color=style.QUIET)
 
 

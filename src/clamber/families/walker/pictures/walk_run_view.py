@@ -65,7 +65,7 @@ class WalkRunView:
         self._along = way / np.hypot(*way) if np.hypot(*way) > 0.05 else np.array((1.0, 0.0))
         self.figure = Figure(layout="constrained")
         self.figure.set_facecolor(style.PAPER)
-        self.figure.suptitle(title, x=0.01, ha="left", fontsize=11, weight="bold")
+        style.entitle(self.figure, title)
         side, top = self._side_box(), self._top_box()
         places = _arrange(self.figure, _shape(side), _shape(top))
         self.side, self.top = places["side"], places["top"]
