@@ -7,6 +7,7 @@ Best directions decide nothing but how the whole is turned (`first`): steps of a
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from operator import attrgetter
 from typing import Annotated, Final
 
@@ -18,7 +19,7 @@ from ....units import DEGREE
 from .geometry import TwoFrames
 from .mechanism import THIRD
 from .turning import turning_range
-from .workspace import workspace
+from .workspace import Workspace, workspace
 
 MM: Final = 1e-3
 
@@ -69,10 +70,6 @@ class Sizes:
         return TwoFrames(delta, y, self.shortest, self.shortest + stroke, 1.0)
 
 
-Reading = Callable[[TwoFrames, float], tuple[float, float]]
-"""From the mechanism and the middle of its range of angles: the longest step [m] and its direction [rad]."""
-
-
 def _longest(measure: Callable[[float], float]) -> tuple[float, float]:
     """Largest of a function of direction that repeats every 60 deg, and where."""
     width = math.pi / 3.0 / 24
@@ -85,38 +82,28 @@ def _longest(measure: Callable[[float], float]) -> tuple[float, float]:
     return measure(0.5 * (low + high)), 0.5 * (low + high)
 
 
-def _through_centre(frames: TwoFrames, theta: float) -> tuple[float, float]:
-    space = workspace(frames, theta)
-
-    def chord(direction: float) -> float:
-        low, high = space.chord(direction)
-        return high - low
-
-    return _longest(chord)
+def _through_centre(region: Workspace, direction: float) -> float:
+    low, high = region.chord(direction)
+    return high - low
 
 
-def _one_way(frames: TwoFrames, theta: float) -> tuple[float, float]:
-    space = workspace(frames, theta)
-    return _longest(lambda direction: max(space.chord(direction)[1], -space.chord(direction)[0]))
+def _one_way(region: Workspace, direction: float) -> float:
+    low, high = region.chord(direction)
+    return max(high, -low)
 
 
-def _whole_width(frames: TwoFrames, theta: float) -> tuple[float, float]:
-    space = workspace(frames, theta)
-
-    def width(direction: float) -> float:
-        low, high = space.extent(direction)
-        return high - low
-
-    return _longest(width)
+def _whole_width(region: Workspace, direction: float) -> float:
+    low, high = region.extent(direction)
+    return high - low
 
 
-READINGS: Final[dict[str, Reading]] = {
-    "chord through the centre, theta = 0": lambda frames, _: _through_centre(frames, 0.0),
-    "from the centre one way, theta = 0": lambda frames, _: _one_way(frames, 0.0),
-    "width of the region, theta = 0": lambda frames, _: _whole_width(frames, 0.0),
-    "chord through the centre, mid range": _through_centre,
+READINGS: Final[dict[str, tuple[Callable[[Workspace, float], float], bool]]] = {
+    "chord through the centre, theta = 0": (_through_centre, False),
+    "from the centre one way, theta = 0": (_one_way, False),
+    "width of the region, theta = 0": (_whole_width, False),
+    "chord through the centre, mid range": (_through_centre, True),
 }
-"""What the printed step may mean -> its measure; the first is ours."""
+"""What the printed step may mean -> its length along a direction [m], and whether at the middle of the angles; the first is ours."""
 OURS: Final = next(iter(READINGS))
 
 
@@ -204,7 +191,9 @@ def measure_sizes(sizes: Sizes, published: Published, reading: str) -> tuple[flo
     turn = turning_range(frames, (0.0, 0.0, 0.0))
     if turn.span <= 0.0:
         return math.nan, math.nan, math.nan, math.nan
-    step, direction = READINGS[reading](frames, 0.5 * (turn.least + turn.most))
+    measure, at_middle = READINGS[reading]
+    region = workspace(frames, 0.5 * (turn.least + turn.most) if at_middle else 0.0)
+    step, direction = _longest(partial(measure, region))
     return turn.least, turn.most, step, direction
 
 
