@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import Annotated, Final
+from typing import Annotated, Any, Final
 
 import numpy as np
 
@@ -279,12 +279,11 @@ def follow_path(robot: WalkerRobot, path: ToolPath, options: FollowOptions) -> F
     rows = _Rows(law, q, weights, body, options.felt)
     for timed, counts in parts:
         rows.follow(timed, counts, waits=timed.by_way)
-    on = np.array(rows.on)
+    q, places, wanted, on, measure, values = map(np.array, zip(*rows.kept, strict=True))
     held = {law.names[k]: count / max(1.0, on.sum()) for k, count in rows.tight.items()}
     return FollowRun(
         robot, path, options, freedoms, footing,
-        np.arange(len(on), dtype=np.float64) * options.period, np.array(rows.q), np.array(rows.places), np.array(rows.wanted), on,
-        np.array(rows.measure), np.array(rows.values), law.limits(), law.names,
+        np.arange(len(on), dtype=np.float64) * options.period, q, places, wanted, on, measure, values, law.limits(), law.names,
         dict(sorted(held.items(), key=lambda item: -item[1])), unreachable, search.find(rows.at, path.points[-1]),
         rows.unsolved, stable_gain(law, rows.at, weights),
     )  # fmt: skip
@@ -295,12 +294,8 @@ class _Rows:
 
     def __init__(self, law: Cooperator, q: Floats, weights: Floats, body: SimulatedBody | None, felt: bool) -> None:
         self.law, self.at, self.weights, self.body, self.felt = law, q, weights, body, felt
-        self.q: list[Floats] = []
-        self.places: list[Floats] = []
-        self.wanted: list[Floats] = []
-        self.values: list[Floats] = []
-        self.on: list[float] = []
-        self.measure: list[float] = []
+        self.kept: list[tuple[Any, ...]] = []
+        """Of each period: freedoms, where the tool is and where it was to be, whether on the path, V, what is limited."""
         self.tight: dict[int, int] = {}
         self.unsolved = 0
 
@@ -316,12 +311,7 @@ class _Rows:
             if waits and moment < timed.lasts:
                 pace = max(0.0, 1.0 - float(np.linalg.norm(target - place)) / PATIENCE)
             step = self.law.step(self.at, aim, pace * velocity, self.weights)
-            self.q.append(self.at)
-            self.places.append(place)
-            self.wanted.append(target)
-            self.values.append(self.law.limited_values(self.at))
-            self.on.append(float(counts))
-            self.measure.append(step.measure)
+            self.kept.append((self.at, place, target, float(counts), step.measure, self.law.limited_values(self.at)))
             if counts:
                 for k in step.tight:
                     self.tight[k] = self.tight.get(k, 0) + 1
