@@ -51,7 +51,7 @@ def level(walker: Walker) -> None:
         FallenError: If the robot falls.
     """
     walker.wanted[1:] = 0.0
-    walker.height = height_for(walker, walker.heights, walker.heights, np.zeros(LEGS))
+    walker.height = heights_for(walker, walker.heights, walker.heights, np.zeros(LEGS))[1]
     check_stroke(walker, np.array((walker.height, 0.0, 0.0)), walker.stands)
     waited = 0.0
     while waited < PATIENCE:
@@ -77,8 +77,10 @@ def check_stroke(walker: Walker, posture: Floats, legs: Ints) -> None:
         )
 
 
-def height_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> float:
-    """Height of the plate, at the tilt that is kept, that leaves the legs room: nominal over the middle of the ground, if it can be.
+def heights_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> tuple[float, float, float]:
+    """Heights of the plate, at the tilt that is kept, that leave the legs room: lowest, own and highest [m].
+
+    None do where lowest is over highest; own is nominal over the middle of the ground, if it can be.
 
     Args:
         walker: The robot.
@@ -86,11 +88,6 @@ def height_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> floa
         high: Highest places that each has to stand on or clear, shape (6,) [m].
         lifts: By how much each foot has to clear them, shape (6,) [m].
     """
-    return heights_for(walker, low, high, lifts)[1]
-
-
-def heights_for(walker: Walker, low: Floats, high: Floats, lifts: Floats) -> tuple[float, float, float]:
-    """Lowest, own and highest of the heights that leave the legs room, as in `height_for` [m]; none do where lowest is over highest."""
     (_, beta, gamma) = walker.wanted
     normal = math.cos(beta) * math.cos(gamma)
     base = np.array((0.0, beta, gamma))

@@ -219,7 +219,7 @@ class Walker:
         self._see_inclines()
         self._share_load()
         self._hold_posture()
-        self._move_free_legs()
+        move_each(self.lengths, self.free_aims, self.free_speeds * self.period, self.stands)
         self._move_arm()
         legs = self.robot.legs
         most = legs.speed * self.period
@@ -383,9 +383,6 @@ class Walker:
             self.lengths, self.sensed, (before, self.wanted[0] - z), self.stands, STILL * most,
             SLACK * self.robot.legs.resolution, self.settings.trim * self.period, self._trims,
         )  # fmt: skip
-
-    def _move_free_legs(self) -> None:
-        move_each(self.lengths, self.free_aims, self.free_speeds * self.period, self.stands)
 
     def _move_arm(self) -> None:
         if self.robot.arm is not None:
