@@ -1,7 +1,7 @@
 """What a walk follows: which frame is lifted next, and where it comes down; along a track, or as a plan has it."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeAlias
 
@@ -41,6 +41,17 @@ class ImaginedWalker:
     def postures(self) -> list[Floats]:
         """See `Walker`."""
         return [self.arm]
+
+    def steps(self, course: "TrackCourse") -> Iterator[Step]:
+        """Go through a course as far as one can: every step, told before its frame is where it comes down."""
+        while not course.done:
+            step = course.next(self)
+            if step is None:
+                return
+            yield step
+            self.placed[step.swing] = step.end
+            if not course.landed(step, self):
+                return
 
 
 class TrackCourse:

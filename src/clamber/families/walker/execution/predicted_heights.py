@@ -54,13 +54,10 @@ def predict_heights(walker: Walker, track: Track, arm: Floats) -> Heights:
     course = TrackCourse(track, neutral=float(walker.place[2]))
     clear = robot.legs.lift if walker.settings.lift is None else walker.settings.lift
     ways, rooms, at = [], [], 0.0
-    while not course.done:
-        step = course.next(imagined)
-        if step is None:
-            break
-        before = _ground_under(robot, imagined.placed, slope, floor)
-        imagined.placed[step.swing] = step.end
-        after = _ground_under(robot, imagined.placed, slope, floor)
+    for step in imagined.steps(course):
+        landed = imagined.placed.copy()
+        landed[step.swing] = step.end
+        before, after = (_ground_under(robot, frames, slope, floor) for frames in (imagined.placed, landed))
         low, high = np.minimum(before, after), np.maximum(before, after)
         lifts = np.zeros((2, 3))
         lifts[step.swing] = clear
@@ -71,8 +68,6 @@ def predict_heights(walker: Walker, track: Track, arm: Floats) -> Heights:
         )
         ways.append((at, step.way if step.swing == 0 else at))
         at = ways[-1][1]
-        if not course.landed(step, imagined):
-            break
     return Heights(np.array(ways).reshape(-1, 2), np.array(rooms).reshape(-1, 3))
 
 

@@ -23,10 +23,10 @@ from ....sim.plant_rules import PlantError
 from ....types import Floats
 from ....units import parse_quantity
 from ..control.gait import Limits
-from ..control.quickest import Gait, quickest_way
 from ..control.track import Track, through
 from ..execution.faulty_walker import FaultyWalker
-from ..execution.footstep_plan import FootstepPlan, PlannedCourse, PlannedStep, TrackCourse
+from ..execution.footstep_plan import FootstepPlan, ImaginedWalker, PlannedCourse, PlannedStep, TrackCourse
+from ..execution.quickest import quickest_way
 from ..execution.settings import WalkSettings
 from ..execution.true_walk import TracedPlant, TrueWalk
 from ..execution.walk_report import WalkReport
@@ -38,6 +38,7 @@ from ..planning import Walk
 from ..planning.walk import why_it_tips
 from ..robot.ditch import Footing
 from ..robot.ditch_plan import Crossing, cross_ditch, stances
+from ..robot.plane_poses import compose
 from ..robot.weight import weight_of
 from ..sim.walker_flaws import WalkerFlaws
 from ..sim.walker_plant import WalkerSim
@@ -203,7 +204,7 @@ def lay_track(walk: Walk, pose: Floats) -> Track:
         track = Track.of(pose, twists, radius)
         here = track.pose(track.length)
         if piece.to is not None:
-            twists += quickest_way(walk.robot, here, np.array(piece.to), piece.heading, gait_of(walk))[0].twists
+            twists += quickest_way(imagined(walk, here), np.array(piece.to), piece.heading)[0].twists
         elif piece.through is not None:
             twists += list(through(here, piece.poses(float(here[2])), radius, within=WITHIN).twists)
         else:
@@ -211,18 +212,10 @@ def lay_track(walk: Walk, pose: Floats) -> Track:
     return Track.of(pose, twists, radius)
 
 
-def gait_of(walk: Walk) -> Gait:
-    """What the time of a walk depends on, with the settings that walks have."""
-    usual, legs = WalkSettings(), walk.robot.legs
-    swap = 2.0 * legs.lift / legs.speed + usual.settling
-    return Gait(
-        neutral=walk.start.twist,
-        arm=np.array(walk.arm),
-        payload=walk.payload,
-        limits=usual.limits,
-        ramp=usual.ramp,
-        swap=swap,
-    )
+def imagined(walk: Walk, pose: Floats) -> ImaginedWalker:
+    """A walk's robot, with the settings that walks have, where its Delta-frame is at a pose, shape (3,)."""
+    placed = np.stack([pose, compose(pose, np.array((0.0, 0.0, walk.start.twist)))])
+    return ImaginedWalker(walk.robot, WalkSettings(), walk.payload, np.array(walk.arm), placed)
 
 
 def own_way(walk: Walk) -> Lay:
