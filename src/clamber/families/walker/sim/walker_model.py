@@ -12,10 +12,8 @@ from typing import Any, Final
 import numpy as np
 
 from ....sim.lone_robot import JointBounds
-from ....types import Floats
 from ....units import GRAVITY
 from ..robot import FRAMES, WalkerRobot
-from ..robot.plane_poses import placed
 from ..world.ground import Ground
 from .walker_flaws import WalkerFlaws
 
@@ -56,7 +54,7 @@ class WalkerBuild:
     """Frames have the inertia of discs of this height on the circle of their feet [m]."""
 
 
-GROUND, FEET = 1, 2
+GROUND_BIT, FEET_BIT = 1, 2
 """Bits of what may touch what."""
 SOLREF: Final = (0.01, 1.0)
 
@@ -92,7 +90,7 @@ def add_ground(mujoco: Any, spec: Any, ground: Ground, friction: float) -> None:
             pos=(low + high) / 2,
             size=(high - low) / 2,
             mass=0.0,
-            **touch(friction, GROUND, FEET),
+            **touch(friction, GROUND_BIT, FEET_BIT),
         )
 
 
@@ -103,19 +101,12 @@ PLACE: Final = ("slide x", "slide y", "turn")
 """Joints of the Y-frame in the Delta-frame."""
 
 
-def actuator_names() -> tuple[str, ...]:
-    """Of the three that slide the frames."""
-    return tuple(f"actuator {i}" for i in range(3))
-
-
-def leg_names() -> tuple[str, ...]:
-    """Of the six legs, frame by frame: bodies, joints and motors."""
-    return tuple(f"{frame} leg {i}" for frame in FRAMES for i in range(3))
-
-
-def foot_names() -> tuple[str, ...]:
-    """Of the six feet: bodies and balls."""
-    return tuple(f"{frame} foot {i}" for frame in FRAMES for i in range(3))
+ACTUATORS: Final = tuple(f"actuator {i}" for i in range(3))
+"""Those that slide the frames: tendons, or rods of struts, and motors."""
+LEGS: Final = tuple(f"{frame} leg {i}" for frame in FRAMES for i in range(3))
+"""Frame by frame: bodies, joints and motors."""
+FEET: Final = tuple(f"{frame} foot {i}" for frame in FRAMES for i in range(3))
+"""Bodies and balls."""
 
 
 def arm_names(robot: WalkerRobot) -> tuple[str, ...]:
@@ -126,12 +117,6 @@ def arm_names(robot: WalkerRobot) -> tuple[str, ...]:
 def foot_radius(robot: WalkerRobot, build: WalkerBuild) -> float:
     """Radius of the balls that are the feet [m]."""
     return robot.legs.pad_radius if robot.legs.pad_radius > 0.0 else build.foot_radius
-
-
-def frame_masses(robot: WalkerRobot) -> Floats:
-    """Mass of each frame with its legs, as the file states it [kg], shape (2,)."""
-    share = robot.mass.share_delta
-    return robot.mass.frames * np.array((share, 1.0 - share))
 
 
 def walker_spec(
@@ -178,7 +163,7 @@ def walker_spec(
     for f, body in enumerate(bodies):
         _weigh_frame(body, robot, build, f)
         for i in range(3):
-            _add_leg(mujoco, spec, body, robot, build, (f, i), touch(friction, FEET, GROUND))
+            _add_leg(mujoco, spec, body, robot, build, (f, i), touch(friction, FEET_BIT, GROUND_BIT))
     _add_arm(mujoco, spec, delta, robot, build, flaws.payload)
     (_add_struts if struts else _add_tendons)(mujoco, spec, bodies, robot, build.actuator)
     if flaws.mass_error > 0.0:
@@ -196,7 +181,8 @@ def _weigh(body: Any, mass: float, inertia: tuple[float, float, float], at: tupl
 
 def _weigh_frame(body: Any, robot: WalkerRobot, build: WalkerBuild, f: int) -> None:
     """What the legs leave of the frame's mass, as a disc whose height makes up for them with legs of nominal length."""
-    whole = float(frame_masses(robot)[f])
+    share = robot.mass.share_delta
+    whole = robot.mass.frames * (share, 1.0 - share)[f]
     hanging = 3.0 * (build.leg_mass + build.foot_mass)
     assert whole > hanging, "a frame lighter than its legs"
     mass = whole - hanging
@@ -235,7 +221,7 @@ def _add_leg(
     f, i = which
     x, y = robot.feet()[which]
     legs, radius = robot.legs, foot_radius(robot, build)
-    leg = frame.add_body(name=leg_names()[3 * f + i], pos=(x, y, 0.0))
+    leg = frame.add_body(name=LEGS[3 * f + i], pos=(x, y, 0.0))
     half = legs.nominal / 2.0
     rod = build.leg_mass * legs.nominal**2 / 12.0
     _weigh(leg, build.leg_mass, (rod, rod, 0.1 * rod), (0.0, 0.0, half))
@@ -243,7 +229,7 @@ def _add_leg(
     joint.armature = build.leg.armature
     ends = legs.shortest, legs.longest
     _add_motor(mujoco, spec, leg.name, mujoco.mjtTrn.mjTRN_JOINT, build.leg, ends, legs.speed, legs.force)
-    foot = leg.add_body(name=foot_names()[3 * f + i], pos=(0.0, 0.0, radius))
+    foot = leg.add_body(name=FEET[3 * f + i], pos=(0.0, 0.0, radius))
     ball = 0.4 * build.foot_mass * max(radius, 0.02) ** 2
     _weigh(foot, build.foot_mass, (ball, ball, ball), (0.0, 0.0, 0.0))
     for name, axis in (("x", (1, 0, 0)), ("y", (0, 1, 0))):
@@ -282,7 +268,7 @@ def _add_arm(mujoco: Any, spec: Any, plate: Any, robot: WalkerRobot, build: Walk
 
 def _add_tendons(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerRobot, servo: Servo) -> None:
     places, mechanism = robot.attachments(), robot.mechanism
-    for i, name in enumerate(actuator_names()):
+    for i, name in enumerate(ACTUATORS):
         tendon = spec.add_tendon(name=name)
         for f, body in enumerate(bodies):
             site = body.add_site(name=f"{FRAMES[f]} attachment {i}", pos=(*places[f, i], 0.0))
@@ -300,7 +286,7 @@ STRUT_ARMATURE: Final = 20.0
 def _add_struts(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerRobot, servo: Servo) -> None:
     """Each a barrel that turns on the Delta-frame and a rod that slides in it, whose end is held to the Y-frame by a constraint."""
     places, mechanism = robot.attachments(), robot.mechanism
-    for i, name in enumerate(actuator_names()):
+    for i, name in enumerate(ACTUATORS):
         barrel = bodies[0].add_body(name=f"barrel {i}", pos=(*places[0, i], 0.0))
         barrel.add_joint(name=f"barrel {i}", type=mujoco.mjtJoint.mjJNT_HINGE, axis=(0, 0, 1))
         rod = barrel.add_body(name=f"rod {i}")
@@ -322,18 +308,10 @@ def _add_struts(mujoco: Any, spec: Any, bodies: tuple[Any, Any], robot: WalkerRo
         _add_motor(mujoco, spec, name, mujoco.mjtTrn.mjTRN_JOINT, servo, ends, mechanism.speed, mechanism.force)
 
 
-def strut_angles(robot: WalkerRobot, place: Floats) -> Floats:
-    """Directions of the actuators in the Delta-frame with the Y-frame at `place` (x, y [m], theta [rad]), shape (3,) [rad]."""
-    on_delta, on_y = robot.attachments()
-    ways = placed(on_y, place) - on_delta
-    angles: Floats = np.arctan2(ways[:, 1], ways[:, 0])
-    return angles
-
-
 def lone_walker(robot: WalkerRobot) -> tuple[Any, dict[str, JointBounds]]:
     """`MjSpec` of a walker alone, and the bounds of its joints."""
     legs, arm = robot.legs, robot.arm
-    bounds = {name: JointBounds(legs.shortest, legs.longest, None, legs.speed) for name in leg_names()}
+    bounds = {name: JointBounds(legs.shortest, legs.longest, None, legs.speed) for name in LEGS}
     if arm is not None:
         ends = zip(arm_names(robot), arm.lowest, arm.highest, arm.fastest, strict=True)
         bounds |= {name: JointBounds(low, high, None, speed) for name, low, high, speed in ends}

@@ -14,14 +14,13 @@ from ..robot import WalkerRobot
 from ..world.ground import Ground, Surface
 from .walker_flaws import Inclinometers, WalkerFlaws
 from .walker_model import (
+    ACTUATORS,
+    FEET,
+    LEGS,
     PLACE,
     WalkerBuild,
-    actuator_names,
     arm_names,
-    foot_names,
     foot_radius,
-    leg_names,
-    strut_angles,
     walker_spec,
 )
 
@@ -116,16 +115,16 @@ class WalkerSim:
         # views of memory that stays where it is: asking for one costs a microsecond
         self._qpos, self._qvel = self._data.qpos, self._data.qvel
         self._ctrl, self._act = self._data.ctrl, self._data.act
-        names = (*actuator_names(), *leg_names(), *arm_names(robot))
+        names = (*ACTUATORS, *LEGS, *arm_names(robot))
         self._motors = np.array([model.actuator(name).id for name in names])
         self._activations = model.actuator_actadr[self._motors]
         self._ends = model.actuator_actrange[self._motors].T.copy()
         self._at_place, self._at_legs, self._at_arm = (
             np.array([model.joint(name).qposadr[0] for name in group], dtype=np.intp)
-            for group in (PLACE, leg_names(), arm_names(robot))
+            for group in (PLACE, LEGS, arm_names(robot))
         )
-        self._plate, self._bodies = model.body("delta").id, [model.body(name).id for name in foot_names()]
-        balls = [model.geom(name).id for name in foot_names()]
+        self._plate, self._bodies = model.body("delta").id, [model.body(name).id for name in FEET]
+        balls = [model.geom(name).id for name in FEET]
         self._foot_of = np.full(model.ngeom, -1)
         self._foot_of[balls] = np.arange(6)
         self._tool = None if robot.arm is None else model.site("tool").id
@@ -161,9 +160,9 @@ class WalkerSim:
         self._qpos[self._at_arm] = arm
         lengths = self._lengths()
         if self._struts:
-            for i, (length, angle) in enumerate(zip(lengths, strut_angles(self.robot, place), strict=True)):
-                self._qpos[self.model.joint(f"barrel {i}").qposadr[0]] = angle
-                self._qpos[self.model.joint(actuator_names()[i]).qposadr[0]] = length
+            for i, (x, y) in enumerate(self._ways()):
+                self._qpos[self.model.joint(f"barrel {i}").qposadr[0]] = math.atan2(y, x)
+                self._qpos[self.model.joint(ACTUATORS[i]).qposadr[0]] = lengths[i]
         mujoco.mj_kinematics(self.model, data)
         self._axes = plate_axes(*self._qpos[3:7].tolist())
         feet = self._soles()
@@ -232,13 +231,16 @@ class WalkerSim:
         aims[3:9] = step * np.round(aims[3:9] / step)
         np.clip(aims, *self._ends, out=self._aims)
 
-    def _lengths(self) -> Floats:
-        """Of the actuators [m], shape (3,)."""
+    def _ways(self) -> Floats:
+        """Along the actuators, from attachment to attachment, in the plate [m], shape (3, 2)."""
         x, y, turn = self._qpos[self._at_place]
         c, s = math.cos(turn), math.sin(turn)
-        ways = self._on_y @ np.array([[c, s], [-s, c]]) - self._on_delta + (x, y)
-        lengths: Floats = np.hypot(ways[:, 0], ways[:, 1])
-        return lengths
+        ways: Floats = self._on_y @ np.array([[c, s], [-s, c]]) - self._on_delta + (x, y)
+        return ways
+
+    def _lengths(self) -> Floats:
+        """Of the actuators [m], shape (3,)."""
+        return np.hypot(*self._ways().T)
 
     def _look(self) -> None:
         """See what a step has done.
