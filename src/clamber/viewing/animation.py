@@ -1,7 +1,8 @@
 """Animations: the frames of plans and runs, as pixels, in GIF and MP4; what stands still is drawn once."""
 
+import importlib.util
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from io import BytesIO
 from pathlib import Path
 from typing import Any, Final, Protocol, TypeAlias
@@ -154,15 +155,26 @@ def write_mp4(picture: Animated[Any], path: Path, progress: Progress = untold) -
     Raises:
         MissingExtraError: If imageio-ffmpeg is not installed.
     """
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        raise MissingExtraError(f"writing {path.name}", "imageio-ffmpeg", "video") from None
+    if not has_ffmpeg():
+        raise MissingExtraError(f"writing {path.name}", "imageio-ffmpeg", "video")
     frames = picture.frames(MOST_FRAMES[".mp4"])
+    drawn = zip(frames, rasterise(picture, frames, VIDEO_DPI, progress), strict=True)
+    write_atomically(path, video(pixels for frame, pixels in drawn for _ in range(max(1, round(frame.length)))))
+
+
+def has_ffmpeg() -> bool:
+    """Whether videos can be made here."""
+    return importlib.util.find_spec("imageio_ffmpeg") is not None
+
+
+def video(pictures: Iterable[Pixels]) -> bytes:
+    """H.264 video of pictures of one size, `RATE` of them in a second."""
+    import imageio_ffmpeg
+
     with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder) / "plan.mp4"
+        target = Path(folder) / "video.mp4"
         writer = None
-        for frame, pixels in zip(frames, rasterise(picture, frames, VIDEO_DPI, progress), strict=True):
+        for pixels in pictures:
             if writer is None:
                 size = pixels.shape[1], pixels.shape[0]
                 writer = imageio_ffmpeg.write_frames(
@@ -175,11 +187,10 @@ def write_mp4(picture: Animated[Any], path: Path, progress: Progress = untold) -
                     ffmpeg_log_level="error",
                 )
                 writer.send(None)
-            for _ in range(max(1, round(frame.length))):
-                writer.send(pixels.tobytes())
+            writer.send(pixels.tobytes())
         if writer is not None:
             writer.close()
-        write_atomically(path, target.read_bytes())
+        return target.read_bytes()
 
 
 WRITERS: Final[dict[str, Callable[[Animated[Any], Path, Progress], None]]] = {".gif": write_gif, ".mp4": write_mp4}

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from matplotlib.ticker import MaxNLocator
@@ -19,28 +19,11 @@ from .pictures import pictures_of
 from .scene import halo
 from .style import bare
 
-
-class Generation(Protocol):
-    """What a picture needs to know of one generation of a search."""
-
-    @property
-    def generation(self) -> int:
-        """Its number, from 0."""
-
-    @property
-    def best_fitness(self) -> float:
-        """Best fitness so far [-]."""
-
-    @property
-    def furthest(self) -> int:
-        """Actions that hold in the plan that got furthest."""
-
-    @property
-    def stage(self) -> int:
-        """Goals that it meets."""
+if TYPE_CHECKING:
+    from ..planning.genetic.evolve import Generation
 
 
-def draw_history(history: Sequence[Generation], path: str | Path, *, goals: Sequence[str] = ()) -> None:
+def draw_history(history: Sequence["Generation"], path: str | Path, *, goals: Sequence[str] = ()) -> None:
     """Draw how fitness and furthest progress grew over the generations of a search.
 
     Args:

@@ -2,15 +2,14 @@
 
 import io
 import re
-import tempfile
 import threading
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from PIL import Image
 
 from ...types import Floats
+from ..animation import RATE, has_ffmpeg, video
 from .inputs import by_hand
 from .panel_html import message_html
 from .playback import Playback
@@ -20,8 +19,6 @@ if TYPE_CHECKING:
 
 SIZE: Final = (1280, 720)
 """Width and height of what is saved [pixels]."""
-RATE: Final = 15.0
-"""Pictures in a second of a video."""
 MOST: Final = 300
 """Pictures of a video, at most: longer films are shown faster."""
 WAIT: Final = 60.0
@@ -41,30 +38,12 @@ def video_times(seconds: float, speed: float) -> Floats:
 
 def encode(pictures: list[Any]) -> tuple[str, bytes]:
     """Suffix and bytes of a video: MP4 with the extra `video`, else GIF. Pictures are (height, width, 3)."""
-    try:
-        import imageio_ffmpeg
-    except ImportError:
-        content = io.BytesIO()
-        images = [Image.fromarray(picture).resize((SIZE[0] // 2, SIZE[1] // 2)) for picture in pictures]
-        images[0].save(content, "GIF", save_all=True, append_images=images[1:], duration=1000.0 / RATE, loop=0)
-        return ".gif", content.getvalue()
-    with tempfile.TemporaryDirectory() as folder:
-        target = Path(folder) / "video.mp4"
-        height, width = pictures[0].shape[:2]
-        writer = imageio_ffmpeg.write_frames(
-            str(target),
-            (width, height),
-            fps=RATE,
-            codec="libx264",
-            quality=7,
-            macro_block_size=2,
-            ffmpeg_log_level="error",
-        )
-        writer.send(None)
-        for picture in pictures:
-            writer.send(np.ascontiguousarray(picture).tobytes())
-        writer.close()
-        return ".mp4", target.read_bytes()
+    if has_ffmpeg():
+        return ".mp4", video(pictures)
+    content = io.BytesIO()
+    images = [Image.fromarray(picture).resize((SIZE[0] // 2, SIZE[1] // 2)) for picture in pictures]
+    images[0].save(content, "GIF", save_all=True, append_images=images[1:], duration=1000.0 / RATE, loop=0)
+    return ".gif", content.getvalue()
 
 
 class RecordingPanel:
