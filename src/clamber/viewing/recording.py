@@ -104,6 +104,11 @@ class Recording(ABC, Generic[Moment]):
         """Number of the step that is under way at a time; 0 is the start."""
         return max(0, int(np.searchsorted(self.starts, time, side="right")) - 1)
 
+    def times(self, rate: float, most: int) -> Floats:
+        """When so many pictures are taken in a second of playing it, `most` or one more at most, from its start to its end [s]."""
+        count = int(min(most, np.ceil(self.seconds / self.speed * rate)))
+        return np.linspace(0.0, self.seconds, max(count, 1) + 1)
+
     def planned_time(self, time: float, plan: "Recording[Moment]") -> float | None:
         """The time of its plan's film that a time of a run belongs to; None where there is none, as in a plan itself."""
         return None

@@ -14,12 +14,14 @@ import clamber
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
+from clamber.viewing.animation import RATE
 from clamber.viewing.browser.app import App
 from clamber.viewing.browser.camera_panel import preset
 from clamber.viewing.browser.curves import Curves
-from clamber.viewing.browser.recording import encode, file_name, video_times
+from clamber.viewing.browser.recording import MOST, encode, file_name
 from clamber.viewing.browser.solids import Camera
 from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of, run_exhibit
+from clamber.viewing.recording import StillFilm
 
 Serve = Callable[..., App]
 Open = Callable[[str], Visit]
@@ -92,9 +94,13 @@ def test_curves_are_the_values_of_the_bars() -> None:
 
 
 def test_a_video_shows_all_of_a_film_in_so_many_pictures_at_most() -> None:
-    times = video_times(10.0, 2.0)
+    film = StillFilm(None, "still", (), "a film")
+    assert len(film.times(RATE, MOST)) == 2
+    film.seconds, film.speed = 10.0, 2.0
+    times = film.times(RATE, MOST)
     assert (times[0], times[-1], len(times)) == (0.0, 10.0, 76)
-    assert len(video_times(1e5, 1.0)) == 301 and len(video_times(0.0, 1.0)) == 2
+    film.seconds, film.speed = 1e5, 1.0
+    assert len(film.times(RATE, MOST)) == 301
     suffix, content = encode([np.full((720, 1280, 3), k, np.uint8) for k in (0, 128, 255)])
     assert (suffix, content[4:8]) == (".mp4", b"ftyp") or (suffix, content[:3]) == (".gif", b"GIF")
     assert file_name("LIBRA climbs: a / ladder!") == "libra-climbs-a-ladder"

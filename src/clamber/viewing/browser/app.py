@@ -138,10 +138,7 @@ class App:
         server.gui.set_panel_label(exhibit.title)
         server.gui.main_panel.dock_right()
         server.gui.main_panel.set_width(WIDTH)
-        self.stage = SceneView(server, exhibit.scenery)
-        self.stage.set_film("plan", exhibit.plan_film)
-        self.stage.set_film("run", exhibit.run_film)
-        self.stage.shown = "both" if len(self.stage.films) > 1 else "plan"
+        self.stage = SceneView(server, exhibit)
         tabs = server.gui.add_tab_group()
         with tabs.add_tab("Play", viser.Icon.PLAYER_PLAY):
             self._shown = server.gui.add_dropdown("show", SHOWN, initial_value="both", visible=False)

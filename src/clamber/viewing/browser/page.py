@@ -60,14 +60,11 @@ def write_page(exhibit: ViewerContent, path: Path, progress: Progress = untold) 
 
 
 def _record(server: Any, exhibit: ViewerContent, progress: Progress) -> str:
-    stage = SceneView(server, exhibit.scenery)
+    stage = SceneView(server, exhibit)
     light_scene(server)
-    stage.set_film("plan", exhibit.plan_film)
-    stage.set_film("run", exhibit.run_film)
-    stage.shown = "both" if len(stage.films) > 1 else "plan"
     aim_camera(server, exhibit.scenery.camera())
     film = stage.main
-    times = _times(film)
+    times = film.times(PICTURES, MOST) if film.seconds > 0.0 else np.zeros(1)
     stage.show(film, 0.0)
     recorder = server.get_scene_serializer()
     for number, (before, now) in enumerate(pairwise(times.tolist()), start=1):
@@ -84,12 +81,6 @@ def _record(server: Any, exhibit: ViewerContent, progress: Progress) -> str:
     page = page.replace(TITLE.decode(), f"<title>{html.escape(exhibit.title)} - Clamber</title>", 1)
     end = page.rindex("</body>")
     return page[:end] + panel + page[end:]
-
-
-def _times(film: Recording[Any]) -> "np.ndarray[tuple[int], np.dtype[np.float64]]":
-    """When the pictures are taken, in the film's time [s]."""
-    count = int(min(MOST, np.ceil(film.seconds / film.speed * PICTURES)))
-    return np.linspace(0.0, film.seconds, max(count, 1) + 1) if film.seconds > 0.0 else np.zeros(1)
 
 
 def panel_data(

@@ -5,10 +5,8 @@ import re
 import threading
 from typing import TYPE_CHECKING, Any, Final
 
-import numpy as np
 from PIL import Image
 
-from ...types import Floats
 from ..animation import RATE, has_ffmpeg, video
 from .inputs import by_hand
 from .panel_html import message_html
@@ -28,12 +26,6 @@ WAIT: Final = 60.0
 def file_name(title: str) -> str:
     """What files are called of what has a title: its letters and digits."""
     return re.sub(r"[^A-Za-z0-9]+", "-", title).strip("-")[:60].lower() or "clamber"
-
-
-def video_times(seconds: float, speed: float) -> Floats:
-    """When the pictures of a video are taken, in the film's time [s]."""
-    count = int(min(MOST, np.ceil(seconds / speed * RATE)))
-    return np.linspace(0.0, seconds, max(count, 1) + 1)
 
 
 def encode(pictures: list[Any]) -> tuple[str, bytes]:
@@ -80,7 +72,7 @@ class RecordingPanel:
 
     def _save_video(self, client: Any) -> None:
         film, before = self._playback.film, self._playback.time
-        times, pictures = video_times(film.seconds, film.speed), []
+        times, pictures = film.times(RATE, MOST), []
         self._playback.play(False)
         for k, time in enumerate(times.tolist()):
             self._playback.seek(time)

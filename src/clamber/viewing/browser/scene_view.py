@@ -16,6 +16,8 @@ from .solids import Figure, Scenery, World
 if TYPE_CHECKING:
     import viser
 
+    from .viewer_content import ViewerContent
+
 WORDS_PERIOD: Final = 0.12
 """Between two texts while it plays [s]."""
 GHOST: Final = 0.3
@@ -30,16 +32,18 @@ class SceneView:
 
     Args:
         server: The scene's and the panel's.
-        scenery: World and robot.
+        content: World and robot, and what is played of them at first.
     """
 
-    def __init__(self, server: "viser.ViserServer", scenery: Scenery) -> None:
-        self.server, self.scenery = server, scenery
-        self.world: World = scenery.world(server)
+    def __init__(self, server: "viser.ViserServer", content: "ViewerContent") -> None:
+        self.server, self.scenery = server, content.scenery
+        self.world: World = content.scenery.world(server)
         self.films: dict[str, Recording[Any]] = {}
         self._figures: dict[str, Figure] = {}
         self._told = (0.0, -1)
-        self.shown: Shown = "plan"
+        self.set_film("plan", content.plan_film)
+        self.set_film("run", content.run_film)
+        self.shown: Shown = "both" if len(self.films) > 1 else "plan"
         self._texts: dict[str, viser.GuiHtmlHandle] = {}
         self._curves: Curves | None = None
         self._block: viser.GuiDropdownHandle[str] | None = None

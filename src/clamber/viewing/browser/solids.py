@@ -2,9 +2,9 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -296,14 +296,22 @@ class _Batch:
             self.node.batched_scales = shown
 
 
-class Sticks(_Batch):
-    """Straight round sticks, with a radius [m] each, shape (n,)."""
+class _Round(_Batch):
+    """Round solids, with a radius [m] each, shape (n,)."""
+
+    shape: ClassVar[Callable[[], Mesh]]
 
     def __init__(
         self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
     ) -> None:
-        super().__init__(server, name, rod(), colours, opacity)
+        super().__init__(server, name, self.shape(), colours, opacity)
         self._radii = radii
+
+
+class Sticks(_Round):
+    """Straight sticks."""
+
+    shape = staticmethod(rod)
 
     def put(self, ends: Floats) -> None:
         """Put every stick between its ends, shape (n, 2, 3) [m]; one without length, or with an end that is NaN, is not seen."""
@@ -314,14 +322,10 @@ class Sticks(_Batch):
         self._place(ends[:, 0], np.column_stack((self._radii, self._radii, lengths)), seen)
 
 
-class Balls(_Batch):
-    """Balls, with a radius [m] each, shape (n,)."""
+class Balls(_Round):
+    """Balls."""
 
-    def __init__(
-        self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
-    ) -> None:
-        super().__init__(server, name, ball(), colours, opacity)
-        self._radii = radii
+    shape = staticmethod(ball)
 
     def put(self, centres: Floats, colours: Colours | None = None) -> None:
         """Put every ball at its centre, shape (n, 3) [m]; one with NaN is not seen. Colours stay, unless given."""
