@@ -45,33 +45,21 @@ def fit_bounds(points: Floats, goals: Iterable[GoalBox]) -> Bounds:
     """The part of the world that holds some points, shape (n, 2), with room around them, and every edge of a goal."""
     low, high = points.min(axis=0), points.max(axis=0)
     pad = max(PAD, 0.03 * float((high - low).max()))
-    x0, y0, x1, y1 = (float(edge) for edge in (*(low - pad).tolist(), *(high + pad).tolist()))
-    room = 2 * pad
+    ends = [(float(first), float(last)) for first, last in zip(low - pad, high + pad, strict=True)]
     for goal in goals:  # an edge of a goal must be seen, with some of what lies beyond
-        for edge, along_x, sign in (
-            (goal.x_min, True, 1),
-            (goal.x_max, True, -1),
-            (goal.y_min, False, 1),
-            (goal.y_max, False, -1),
-        ):
-            if edge is None or not math.isfinite(edge):
-                continue
-            if along_x:
-                x0, x1 = min(x0, edge + min(sign * room, 0.0)), max(x1, edge + max(sign * room, 0.0))
-            else:
-                y0, y1 = min(y0, edge + min(sign * room, 0.0)), max(y1, edge + max(sign * room, 0.0))
-    return x0, x1, y0, y1
+        for k, edge in enumerate(goal.box):
+            if math.isfinite(edge):
+                first, last = ends[k // 2]
+                beyond = -2 * pad if k % 2 else 2 * pad
+                ends[k // 2] = min(first, edge + min(beyond, 0.0)), max(last, edge + max(beyond, 0.0))
+    return *ends[0], *ends[1]
 
 
 def goal_box(goal: GoalBox, bounds: Bounds) -> Floats | None:
     """Corners of a goal's box, open sides cut off at the picture's edge, shape (4, 2); None where all are open."""
-    sides = [
-        None if side is None or not math.isfinite(side) else side
-        for side in (goal.x_min, goal.x_max, goal.y_min, goal.y_max)
-    ]
-    if all(side is None for side in sides):
+    if not any(map(math.isfinite, goal.box)):
         return None
-    x0, x1, y0, y1 = (given if given is not None else edge for given, edge in zip(sides, bounds, strict=True))
+    x0, x1, y0, y1 = (side if math.isfinite(side) else edge for side, edge in zip(goal.box, bounds, strict=True))
     return np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
 
 
