@@ -23,23 +23,18 @@ DELTA: Final = style.INK
 Y: Final = style.PARTS[2]
 
 
-def draw_robot(space: Any, footing: PlantedFeet, q: Floats, alpha: float) -> None:
+def draw_robot(axes: Any, footing: PlantedFeet, q: Floats, alpha: float, seen: Sequence[int] = (0, 1, 2)) -> None:
     """Draw frames, standing legs and arm.
 
     Args:
-        space: 3-D axes.
+        axes: As many dimensions as are seen.
         footing: What it stands on.
         q: Freedoms of body and arm, shape (6 + joints,).
         alpha: Opacity.
+        seen: Of x, y and z, in order; x and z are the robot as seen along y.
     """
     for points, colour, width in robot_lines(footing, q):
-        space.plot(*points.T, color=colour, lw=width, alpha=alpha, solid_capstyle="round")
-
-
-def draw_from_side(axes: Axes, footing: PlantedFeet, q: Floats, alpha: float) -> None:
-    """Draw the same as seen along y: x and z [m]."""
-    for points, colour, width in robot_lines(footing, q):
-        axes.plot(points[:, 0], points[:, 2], color=colour, lw=width, alpha=alpha, solid_capstyle="round")
+        axes.plot(*points[:, seen].T, color=colour, lw=width, alpha=alpha, solid_capstyle="round")
 
 
 def robot_lines(footing: PlantedFeet, q: Floats) -> Iterator[tuple[Floats, str, float]]:
@@ -165,7 +160,7 @@ def draw_motions(motions: Sequence[Motion], time: Floats, path: str | Path) -> N
         sides = above.subplots(1, len(motions), sharex=True, sharey=True)
         for side, motion, colour in zip(sides, motions, MOTION_COLOURS, strict=False):
             for row, alpha in zip((0, len(motion.q) // 2, -1), ALPHAS, strict=True):
-                draw_from_side(side, motion.footing, motion.q[row], alpha)
+                draw_robot(side, motion.footing, motion.q[row], alpha, (0, 2))
             side.plot(motion.places[:, 0], motion.places[:, 2], color=style.PARTS[0], lw=2.0)
             side.axhline(0.0, color=style.QUIET, lw=0.8)
             side.set_aspect("equal")

@@ -73,14 +73,9 @@ def draw_ground(axes: Axes, task: WalkerTask, bounds: Bounds) -> None:
             label_region(axes, corners, name_goal(task.goals, index), bounds, 7.0)
 
 
-def block_colour(height: float) -> str:
-    """A higher block is lighter than the ground, a lower one darker."""
-    return HIGHER if height > 0.0 else LOWER
-
-
 def draw_block(axes: Axes, block: Block, bounds: Bounds, *, named: bool) -> None:
     """Draw a level part of the ground, with its height if it is `named`."""
-    colour = block_colour(block.height)
+    colour = HIGHER if block.height > 0.0 else LOWER
     axes.add_patch(Polygon(np.array(block.corners()), fc=colour, ec=style.QUIET, lw=1.0, zorder=0.6))
     x0, x1, y0, y1 = bounds
     xs, ys = (

@@ -47,7 +47,7 @@ class WalkStart:
 
 @spec
 class ToolStop:
-    """A place that the tool goes on to, seen from where the way begins."""
+    """A place of the tool, seen from where the way begins."""
 
     x: Length
     """Ahead of the Delta-frame's origin, along its heading [m]."""
@@ -58,15 +58,9 @@ class ToolStop:
 
 
 @spec
-class Hold:
+class Hold(ToolStop):
     """A point that the tool is held at while the robot walks past it, seen from where the way begins; or a line that it follows."""
 
-    x: Length
-    """Ahead of the Delta-frame's origin, along its heading [m]."""
-    y: Length
-    """To its left [m]."""
-    z: Length
-    """Above the middle of its feet [m]."""
     within: PositiveLength = 0.5
     """It is held from so far before the place of the way that is nearest to it until so far behind, where the arm can reach it [m]."""
     served: Literal["arm", "height"] = "arm"
@@ -77,7 +71,7 @@ class Hold:
 
     def points(self) -> Floats:
         """The point and those that the tool goes on to, shape (n, 3) [m]."""
-        return np.array([(self.x, self.y, self.z), *((stop.x, stop.y, stop.z) for stop in self.through)])
+        return np.array([(stop.x, stop.y, stop.z) for stop in (self, *self.through)])
 
 
 @spec

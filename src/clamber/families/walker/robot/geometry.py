@@ -81,7 +81,10 @@ class TwoFrames:
             PoseError: If a length is zero, where it has no derivative.
         """
         x, y, theta = _pose(pose)
-        self._check_lengths(x, y, theta)
+        if self.lengths((x, y, theta)).min() <= NO_LENGTH:
+            raise PoseError(
+                "pose", (x, y, theta), "an actuator has no length there, so it has no direction; move off it"
+            )
         lengths, jacobian = np.empty(3), np.empty((3, 3))
         length_jacobian(self.delta, self.y, x, y, theta, lengths, jacobian)
         return jacobian
@@ -117,12 +120,6 @@ class TwoFrames:
         ended = follow_branch(self.delta, self.y, aim, pose, np.empty((9, 3)))
         error = float(abs(self.lengths(pose) - aim).max())
         return Followed("found" if ended == FOUND else "singular", pose, error)
-
-    def _check_lengths(self, x: float, y: float, theta: float) -> None:
-        if self.lengths((x, y, theta)).min() <= NO_LENGTH:
-            raise PoseError(
-                "pose", (x, y, theta), "an actuator has no length there, so it has no direction; move off it"
-            )
 
 
 def _pose(pose: npt.ArrayLike) -> tuple[float, float, float]:

@@ -106,7 +106,7 @@ class ReachSearch:
             target: World [m], shape (3,).
             postures: Whether to start from postures of the arm across its range too, not from `q` alone.
         """
-        best = self._descend(q, target)
+        best, chain = self._descend(q, target), self._law.chain
         for joints in self._postures if postures else ():
             if best.reached:
                 break
@@ -114,7 +114,7 @@ class ReachSearch:
             start[POSE:] = joints
             away = target - start[:3]
             turn = np.arctan2(away[1], away[0]) - q[3]  # towards the target, where the joint can
-            start[POSE] = np.clip(np.remainder(turn + np.pi, 2 * np.pi) - np.pi, *self._range(0))
+            start[POSE] = np.clip(np.remainder(turn + np.pi, 2 * np.pi) - np.pi, chain.lowest[0], chain.highest[0])
             try:
                 self._law.check_start(start)
             except LimitError:
@@ -123,10 +123,6 @@ class ReachSearch:
             if found.distance < best.distance:
                 best = found
         return best
-
-    def _range(self, joint: int) -> tuple[float, float]:
-        chain = self._law.chain
-        return float(chain.lowest[joint]), float(chain.highest[joint])
 
     def _descend(self, q: Floats, target: Floats) -> Reach:
         still = np.zeros(3)
