@@ -2,7 +2,7 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
@@ -299,19 +299,20 @@ class _Batch:
 class _Round(_Batch):
     """Round solids, with a radius [m] each, shape (n,)."""
 
-    shape: ClassVar[Callable[[], Mesh]]
+    shape: ClassVar[Mesh]
+    """Of radius 1."""
 
     def __init__(
         self, server: "viser.ViserServer", name: str, colours: Colours, radii: Floats, opacity: float = 1.0
     ) -> None:
-        super().__init__(server, name, self.shape(), colours, opacity)
+        super().__init__(server, name, self.shape, colours, opacity)
         self._radii = radii
 
 
 class Sticks(_Round):
     """Straight sticks."""
 
-    shape = staticmethod(rod)
+    shape = rod()
 
     def put(self, ends: Floats) -> None:
         """Put every stick between its ends, shape (n, 2, 3) [m]; one without length, or with an end that is NaN, is not seen."""
@@ -325,7 +326,7 @@ class Sticks(_Round):
 class Balls(_Round):
     """Balls."""
 
-    shape = staticmethod(ball)
+    shape = ball()
 
     def put(self, centres: Floats, colours: Colours | None = None) -> None:
         """Put every ball at its centre, shape (n, 3) [m]; one with NaN is not seen. Colours stay, unless given."""

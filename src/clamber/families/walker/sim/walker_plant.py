@@ -240,7 +240,8 @@ class WalkerSim:
 
     def _lengths(self) -> Floats:
         """Of the actuators [m], shape (3,)."""
-        return np.hypot(*self._ways().T)
+        lengths: Floats = np.hypot(*self._ways().T)
+        return lengths
 
     def _look(self) -> None:
         """See what a step has done.
