@@ -1,6 +1,6 @@
 """With limits on, no run ever exceeds one: judged by the second reading of test_planted, not by the law's own kernels."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
@@ -250,7 +250,7 @@ def test_near_a_singular_posture_damping_keeps_the_motion_smooth() -> None:
     damped = Cooperation(speeds=own_speeds(robot), tool_speeds=np.full(3, 0.1), gain=0.0)
     weights, outwards = weights_of("arm", 4), np.array([np.cos(0.2), np.sin(0.2), 0.0])
     shaking = {}
-    for name, settings in {"damped": damped, "bare": damped.with_changes(damping=0.0)}.items():
+    for name, settings in {"damped": damped, "bare": replace(damped, damping=0.0)}.items():
         made = Cooperator(robot, settings, stance)
         q, rates, start = START.copy(), [], made.place(START)
         for k in range(1500):

@@ -1,6 +1,6 @@
 """The reachable place nearest to a target: damped Gauss-Newton steps through the programme of the law, from several postures of the arm."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -86,7 +86,7 @@ class ReachSearch:
             balance=balance,
             damping=0.0,
         )
-        self._laws = [Cooperator(robot, settings.with_changes(inside=inside), footing, kept) for inside in INSIDE]
+        self._laws = [Cooperator(robot, replace(settings, inside=inside), footing, kept) for inside in INSIDE]
         self._law = self._laws[-1]
         self._law.check_weights(weights)
         self._weights = weights

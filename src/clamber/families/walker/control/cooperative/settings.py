@@ -1,8 +1,8 @@
 """Numbers of the law of cooperative motion, and the speeds that follow from a robot's actuators."""
 
 import math
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -77,10 +77,6 @@ class Cooperation:
             raise CooperationError("approach", self.approach, "must be over 0 /s")
         if self.form not in ("right", "as printed"):
             raise CooperationError("form", repr(self.form), "must be 'right' or 'as printed'")
-
-    def with_changes(self, **changes: Any) -> "Cooperation":
-        """The same with some settings changed, checked anew."""
-        return replace(self, **changes)
 
 
 def stretch(settings: Cooperation, robot: WalkerRobot) -> float:
