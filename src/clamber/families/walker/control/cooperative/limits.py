@@ -5,7 +5,8 @@ from typing import Literal
 import numpy as np
 
 from ...robot import WalkerRobot
-from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, PlantedFeet, arm_moment
+from .arm_moment import arm_moment
+from .planted_feet import ACTUATOR, BALANCE, GUARD, LEG, N_ROWS, ROW_NAMES, PlantedFeet
 from .scratch import Chain
 from .tool_chain import POSE
 

@@ -8,6 +8,7 @@ import numpy as np
 from .....errors import StatedError
 from .....types import Floats, Records
 from ...robot import FRAMES, WalkerRobot
+from .arm_moment import arm_moment
 from .planted import heading_of, turn_of
 
 Support = Literal["delta", "y", "both"]
@@ -42,7 +43,7 @@ PLANTED_FEET: Final = np.dtype(
         ("share_y", "f8"),
         ("mass_height", "f8"),
         ("mass_arm", "f8"),  # payload included
-        ("moment_out", "f8"),  # of the arm's first moment (`ArmMoment`) [kg m]
+        ("moment_out", "f8"),  # of the arm's first moment (arm_moment.py) [kg m]
         ("moment_up", "f8"),
         ("edges", "f8", (MOST_EDGES, 3)),  # inwards normal and offset: the margin is n.p - c
     ],
@@ -58,30 +59,6 @@ class LimitError(StatedError):
     what: str
     value: float
     allowed: str
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class ArmMoment:
-    """Sum of m_j a_j over the links and the payload, written as `arm_vector` writes a vector to a tool."""
-
-    links: Floats
-    """What turns with each pitching joint: its link's own half and all beyond it [kg m], shape (n,)."""
-    out: float
-    """[kg m]."""
-    up: float
-    """[kg m]."""
-    mass: float
-    """Of arm and payload [kg]."""
-
-
-def arm_moment(robot: WalkerRobot, payload: float = 0.0) -> ArmMoment:
-    """The first moment of a robot's arm; the payload is carried at the tool [kg]."""
-    arm = robot.own_arm
-    masses = np.array([*arm.masses, payload])
-    beyond = masses[::-1].cumsum()[::-1]  # of link i and all after it
-    lengths = np.array(arm.links)
-    links = lengths * (0.5 * masses[:-1] + beyond[1:])
-    return ArmMoment(links, float(beyond[0]) * arm.out, float(beyond[0]) * arm.up, float(beyond[0]))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
