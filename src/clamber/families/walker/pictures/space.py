@@ -66,20 +66,20 @@ class GroundScene:
             shade = next(shade for most, shade in SHADES if top <= most)
             groups.setdefault(shade, []).append(np.array((xa, xb, ya, yb, top)))
         for k, (shade, bricks) in enumerate(groups.items()):
-            server.scene.add_mesh_simple(
-                f"/ground/bricks {k + 1}", *self._placed(_bricks(np.array(bricks), bottom)), color=colour(shade),
-                flat_shading=True,
-            )  # fmt: skip
+            self._add(f"bricks {k + 1}", self._placed(_bricks(np.array(bricks), bottom)), shade)
         for k, patch in enumerate(ground.forbidden()):
-            server.scene.add_mesh_simple(
-                f"/ground/forbidden {k + 1}", *self._placed(prism(np.array(patch), 0.0, 0.003)), color=colour(style.ALERT),
-                opacity=0.45, flat_shading=True, cast_shadow=False,
-            )  # fmt: skip
+            self._add(f"forbidden {k + 1}", self._placed(prism(np.array(patch), 0.0, 0.003)), style.ALERT, 0.45)
         self._draw_lines(bounds)
         for k, goal in enumerate(goals):
             self._draw_goal(goals, k, goal_box(goal, bounds))
         if way is not None:
             self._draw_way(way)
+
+    def _add(self, name: str, mesh: Mesh, shade: str, opacity: float | None = None) -> None:
+        """A solid of the ground; only one that cannot be seen through casts a shadow."""
+        self._server.scene.add_mesh_simple(
+            f"/ground/{name}", *mesh, color=colour(shade), opacity=opacity, flat_shading=True, cast_shadow=opacity is None
+        )  # fmt: skip
 
     def _placed(self, mesh: Mesh) -> Mesh:
         return mesh[0] @ self._axes.T, mesh[1]
@@ -112,10 +112,8 @@ class GroundScene:
         lifted = prism(corners, 0.0, 0.002)
         heights = self._surface.heights(corners)
         base = float(heights[np.isfinite(heights)].max(initial=0.0))
-        self._server.scene.add_mesh_simple(
-            f"/ground/goals/{k + 1}", lifted[0] + (0.0, 0.0, base), lifted[1], color=colour(style.GOAL),
-            opacity=0.4 if last else 0.2, flat_shading=True, cast_shadow=False,
-        )  # fmt: skip
+        goal = lifted[0] + (0.0, 0.0, base), lifted[1]
+        self._add(f"goals/{k + 1}", goal, style.GOAL, 0.4 if last else 0.2)
         self._server.scene.add_label(
             f"/ground/goals/{k + 1}/name", name_goal(goals, k), anchor="bottom-center",
             position=(float(corners[:, 0].mean()), float(corners[:, 1].mean()), base + 0.01),
@@ -130,10 +128,7 @@ class GroundScene:
             "/ground/way", np.stack((points[:-1], points[1:]), axis=1), colour(style.GOAL), thickness=0.006
         )
         disc = prism(DISC * END + way[-1], 0.0, 0.002)
-        self._server.scene.add_mesh_simple(
-            "/ground/way/end", disc[0] + (0.0, 0.0, heights[-1] + ABOVE), disc[1], color=colour(style.GOAL), opacity=0.5,
-            flat_shading=True, cast_shadow=False,
-        )  # fmt: skip
+        self._add("way/end", (disc[0] + (0.0, 0.0, heights[-1] + ABOVE), disc[1]), style.GOAL, 0.5)
 
     def remove(self) -> None:
         """Take all of it away."""
