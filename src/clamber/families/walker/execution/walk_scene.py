@@ -57,7 +57,9 @@ def walk_scene(robot: WalkerRobot, ground: Ground, *, true: bool, arm: bool) -> 
         return made + ([Frame("tool", WORLD, row[columns["true_tool"]])] if true and arm else [])
 
     shapes = {GROUND: _ground(ground)} | _robot(robot)
-    return LoggedScene(shapes | ({"tool": [_ball(0.02, "#6B6B6B")]} if true and arm else {}), frames)
+    if true and arm:
+        shapes["tool"] = [Shape("spheres", (0.0, 0.0, 0.0), (0.04,) * 3, "#6B6B6B")]
+    return LoggedScene(shapes, frames)
 
 
 def plate_axes(alpha: float | Floats, beta: float | Floats, gamma: float | Floats) -> Floats:
@@ -101,7 +103,3 @@ def _robot(robot: WalkerRobot) -> dict[str, list[Shape]]:
         leg = rod(0.0 * up, robot.legs.nominal * up, 0.7 * r, COLOURS[k // 3])  # as long as it is on level ground
         shapes[f"{name} sole"] = [leg, rod(0.0 * up, 0.35 * pad * up, pad, COLOURS[k // 3])]
     return shapes
-
-
-def _ball(radius: float, shade: str) -> Shape:
-    return Shape("spheres", (0.0, 0.0, 0.0), (2 * radius,) * 3, shade)

@@ -85,7 +85,8 @@ class SimulatedBody:
         heights = _heights(bare, self._legs)
         self.footing = PlantedFeet(robot=robot, support=support, pose=bare.pose, heights=heights, payload=payload)
         self._felt = FeltBody(self.footing)
-        self._off = np.zeros(3)
+        self.off = np.zeros(3)
+        """By how much the tool is felt to be off where it was led to, smoothed [m]."""
         self._share = period / SMOOTH
 
     def move(self, law: Cooperator, q: Floats) -> Floats:
@@ -99,18 +100,13 @@ class SimulatedBody:
         self._sim.step()
         sensed = self._sim.sense()
         felt = self._felt.freedoms(sensed.actuators, sensed.legs, sensed.inclines, sensed.arm)
-        self._off += self._share * (law.place(felt) - law.place(q) - self._off)
+        self.off += self._share * (law.place(felt) - law.place(q) - self.off)
         out: Floats = self._sim.truth().tool.copy()
         return out
 
     def pose(self) -> Floats:
         """Where the plate truly is: x, y, z [m], alpha, beta, gamma [rad], shape (6,)."""
         return self._sim.truth().pose.copy()
-
-    @property
-    def off(self) -> Floats:
-        """By how much the tool is felt to be off where it was led to, smoothed [m], shape (3,)."""
-        return self._off
 
 
 def _heights(stance: PlantedFeet, legs: Floats) -> Floats:
