@@ -154,12 +154,11 @@ def test_a_free_plates_gradients_are_those_of_central_differences(seed: int) -> 
     def values(p: Floats) -> Floats:
         v = seen(stance, robot, p)
         out = np.empty(N_ROWS)
-        bound_values(record, p, v.turn, v.s, v.y_place, v.slope, out)
+        bound_values(record, p, v, out)
         return out
 
-    out = np.empty((N_ROWS, q.size))
-    bound_gradients(record, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.slope, w.lengths, w.by_place, out)
-    np.testing.assert_allclose(out[:13], differences(values, q).T[:13], atol=1e-7, rtol=0)
+    bound_gradients(record, q, w)
+    np.testing.assert_allclose(w.gradients[:13], differences(values, q).T[:13], atol=1e-7, rtol=0)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -56,27 +56,27 @@ def connects(delta_feet, y_feet, w, low, high, seen, stack):
         if a == 3 and b == 3:
             return True
         for other in range(SIDES):
-            if not seen[other, b]:  # the Delta-frame slides, the Y-frame stands
-                first = max(stand_from(y_feet, w, b), stand_from(delta_feet, w, a) + low)
-                first = max(first, stand_from(delta_feet, w, other) + low)
-                last = min(stand_to(y_feet, b), stand_to(delta_feet, a) + high)
-                last = min(last, stand_to(delta_feet, other) + high)
-                if first <= last and stands(delta_feet, w, other) and stands(delta_feet, w, a):
-                    seen[other, b] = True
-                    stack[depth, 0] = other
-                    stack[depth, 1] = b
-                    depth += 1
-            if not seen[a, other]:
-                first = max(stand_from(delta_feet, w, a), stand_from(y_feet, w, b) - high)
-                first = max(first, stand_from(y_feet, w, other) - high)
-                last = min(stand_to(delta_feet, a), stand_to(y_feet, b) - low)
-                last = min(last, stand_to(y_feet, other) - low)
-                if first <= last and stands(y_feet, w, other) and stands(y_feet, w, b):
-                    seen[a, other] = True
-                    stack[depth, 0] = a
-                    stack[depth, 1] = other
-                    depth += 1
+            if not seen[other, b] and slides(delta_feet, a, other, y_feet, b, w, low, high):
+                seen[other, b] = True
+                stack[depth, 0] = other
+                stack[depth, 1] = b
+                depth += 1
+            if not seen[a, other] and slides(y_feet, b, other, delta_feet, a, w, -high, -low):
+                seen[a, other] = True
+                stack[depth, 0] = a
+                stack[depth, 1] = other
+                depth += 1
     return False
+
+
+@inlined
+def slides(lifted, k, other, standing, across, w, low, high):
+    """Whether a frame with k feet across gets to another number, while one stands whose place less its own is from low to high."""
+    first = max(stand_from(standing, w, across), stand_from(lifted, w, k) + low)
+    first = max(first, stand_from(lifted, w, other) + low)
+    last = min(stand_to(standing, across), stand_to(lifted, k) + high)
+    last = min(last, stand_to(lifted, other) + high)
+    return first <= last and stands(lifted, w, other) and stands(lifted, w, k)
 
 
 @inlined

@@ -10,7 +10,7 @@ from ...robot import WalkerRobot
 from .limits import Kept, chain_of, limit_names
 from .one_step import finish, move_freely, prepare, see
 from .planted_feet import BALANCE, N_ROWS, ROW_UNITS, LimitError, PlantedFeet
-from .programme import calm, let_rest, make_programme
+from .programme import Law, calm, let_rest, make_programme
 from .scratch import make_scratch, see_bounds, see_tool
 from .settings import Cooperation, CooperationError, stretch, swerve
 from .tool_chain import POSE
@@ -66,12 +66,19 @@ class Cooperator:
         self._m = m
         self._w = make_scratch(robot.arm.n_joints)
         self._programme = make_programme(m)
-        self._speeds, self._velocity = np.zeros(m), np.zeros(3)
         self._tight = np.zeros(len(self.names))
-        self._fastest, self._tool_speeds = np.array(settings.speeds), np.array(settings.tool_speeds)
         s = settings
-        plate, arm = 0.0 if s.lent else swerve(s, robot), stretch(s, robot)
-        self._law = np.array([s.approach, s.inside, s.softness, plate, s.damping * plate, arm, s.damping * arm])
+        little = np.array([0.0 if s.lent else swerve(s, robot), stretch(s, robot)])
+        self._law = Law(
+            fastest=np.array(s.speeds),
+            tool_speeds=np.array(s.tool_speeds),
+            gain=float(s.gain),
+            approach=float(s.approach),
+            inside=float(s.inside),
+            softness=float(s.softness),
+            little=little,
+            enough=s.damping * little,
+        )
         self.stand(footing)
 
     def stand(self, footing: PlantedFeet) -> None:
@@ -128,10 +135,7 @@ class Cooperator:
 
     def measure(self, q: Floats, weights: Floats) -> float:
         """V of the normalised chain with some of its freedoms [-]."""
-        limited, w = self.settings.limited, self._w
-        return float(
-            see(self.chain, self._record, q, weights, self._fastest, self._tool_speeds, limited, self._speeds, w)
-        )
+        return float(see(self.chain, self._record, q, weights, self._law, self.settings.limited, self._w))
 
     def gradient(self, q: Floats, weights: Floats) -> Floats:
         """dV/dq^ of the normalised chain [-], shape (m,)."""
@@ -165,23 +169,18 @@ class Cooperator:
         back = s.feedback if feedback is None else feedback
         if not s.limited:
             measure = move_freely(
-                self.chain, self._record, q, weights, self._fastest, self._tool_speeds, back, target, velocity, s.gain,
-                s.form == "as printed", 0.0, s.period, self._speeds, self._velocity, w,
+                self.chain, self._record, q, weights, self._law, back, target, velocity, s.form == "as printed", s.period, w
             )  # fmt: skip
             return Step(w.after.copy(), w.place.copy(), measure, 1.0, ())
         p = self._programme
         measure, count = prepare(
-            self.chain, self._record, q, weights, self._fastest, self._tool_speeds, back, target, velocity, s.gain,
-            s.lent, self._law, self._speeds, self._velocity, w, p.f, p.rows, p.lower, p.upper, p.which,
+            self.chain, self._record, q, weights, self._law, back, target, velocity, s.lent, w, p
         )  # fmt: skip
         x, multipliers, solved = self._solve(count)
-        if calm(x, count, p.f, p.rows, p.lower, p.upper, self._speeds, self._law):
+        if calm(x, count, self._law, w, p):
             x, multipliers, solved = self._solve(count)
         place = w.place.copy()
-        share = finish(
-            self.chain, self._record, q, x, multipliers, count, self._speeds, p.lower, p.upper, p.which, s.period,
-            self._tight, w,
-        )  # fmt: skip
+        share = finish(self.chain, self._record, q, x, multipliers, count, s.period, self._tight, w, p)
         tight = tuple(np.flatnonzero(self._tight > TIGHT).tolist())
         return Step(w.after.copy(), place, measure, share, tight, solved)
 
@@ -204,7 +203,7 @@ class Cooperator:
             if flag == SOLVED:
                 return x, info["lam"], True
             if flag == CONTRADICTED:
-                let_rest(count, m, p.lower, p.upper)
+                let_rest(count, p)
             else:  # the method cycles where a tool's motion that cannot be had outweighs the rest by too many digits
                 p.rows[:3, m:] *= 10.0
         return np.zeros(m + 3), np.zeros(m + count), False

@@ -19,57 +19,42 @@ from .tool_chain import POSE
 
 
 @kernel
-def share_motion(scaled, speeds, tool_speeds, velocity, xi, gain, damping, square, right, rates):
-    """Rates of the freedoms by equation 19; False (and no motion) where J^ J^' + damping^2 cannot be inverted.
-
-    Args:
-        scaled: J^ [-], shape (3, m).
-        speeds: Largest speeds of the freedoms [m/s, rad/s], shape (m,); 0 switches one off.
-        tool_speeds: Of the tool [m/s], shape (3,).
-        velocity: Wanted of the tool, feedback included, world [m/s], shape (3,).
-        xi: dV/dq^ [-], shape (m,).
-        gain: k_p [-].
-        damping: lambda [-]; 0 takes the pseudo-inverse itself.
-        square: Scratch, shape (3, 3).
-        right: Scratch, shape (3,).
-        rates: Filled with q_dot [m/s, rad/s], shape (m,).
-    """
-    m = speeds.size
-    gram(scaled, square)
+def _share_motion(law, w):
+    """Rates of the freedoms by equation 19, into the scratch: none where J^ J^' cannot be inverted."""
+    m, square, right = w.speeds.size, w.square, w.right
+    gram(w.scaled, square)
     for i in range(3):
-        square[i, i] += damping * damping
-        total = velocity[i] / tool_speeds[i]
+        total = w.velocity[i] / law.tool_speeds[i]
         for k in range(m):
-            total -= gain * scaled[i, k] * xi[k]
+            total -= law.gain * w.scaled[i, k] * w.gradient[k]
         right[i] = total
     if not factor(square, 3, square):
         for k in range(m):
-            rates[k] = 0.0
-        return False
+            w.rates[k] = 0.0
+        return
     back_substitute(square, 3, right)
     # J^+ b + k_p (I - J^+ J^) xi = k_p xi + J^+ (b - k_p J^ xi)
     for k in range(m):
-        total = gain * xi[k]
+        total = law.gain * w.gradient[k]
         for i in range(3):
-            total += scaled[i, k] * right[i]
-        rates[k] = speeds[k] * total
-    return True
+            total += w.scaled[i, k] * right[i]
+        w.rates[k] = w.speeds[k] * total
 
 
 @kernel
-def _wanted(feedback, target, target_velocity, place, tool_speeds, limited, velocity):
-    """Velocity of the tool with feedback, no faster than the tool may be."""
+def _want(feedback, target, target_velocity, law, limited, w):
+    """Velocity of the tool with feedback, into the scratch, no faster than the tool may be."""
     size = 0.0
     for i in range(3):
-        velocity[i] = target_velocity[i] + feedback * (target[i] - place[i])
-        size += (velocity[i] / tool_speeds[i]) ** 2
+        w.velocity[i] = target_velocity[i] + feedback * (target[i] - w.place[i])
+        size += (w.velocity[i] / law.tool_speeds[i]) ** 2
     if limited and size > 1.0:
         for i in range(3):
-            velocity[i] /= np.sqrt(size)
+            w.velocity[i] /= np.sqrt(size)
 
 
 @kernel
-def see(chain, footing, q, weights, fastest, tool_speeds, limited, speeds, w):
+def see(chain, footing, q, weights, law, limited, w):
     """Everything that the law reads of a configuration; returns V.
 
     Args:
@@ -77,69 +62,56 @@ def see(chain, footing, q, weights, fastest, tool_speeds, limited, speeds, w):
         footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
         weights: Of the freedoms, 0 to 1, shape (m,).
-        fastest: Their largest speeds, shape (m,).
-        tool_speeds: Of the tool, shape (3,).
+        law: A `Law`.
         limited: Whether the plate stands on its feet, within its bounds; else it moves freely.
-        speeds: Filled with weights times fastest, shape (m,).
-        w: A `Scratch`.
+        w: A `Scratch`; its speeds become weights times the fastest.
     """
     for k in range(q.size):
-        speeds[k] = weights[k] * fastest[k]
+        w.speeds[k] = weights[k] * law.fastest[k]
     see_tool(chain, q, w)
     if limited:
         see_bounds(chain, footing, q, w)
-    return see_measure(speeds, tool_speeds, w)
+    return see_measure(w.speeds, law.tool_speeds, w)
 
 
 @kernel
-def _see_arm(speeds, tool_speeds, w):
+def _see_arm(law, w):
     """Leave the gradient of the arm's own V in the scratch, beside the whole J^; returns V."""
-    plate = speeds[:POSE].copy()
-    speeds[:POSE] = 0.0
-    measure = see_measure(speeds, tool_speeds, w)
-    speeds[:POSE] = plate
-    normalise(w.jacobian, speeds, tool_speeds, w.scaled)
+    plate = w.speeds[:POSE].copy()
+    w.speeds[:POSE] = 0.0
+    measure = see_measure(w.speeds, law.tool_speeds, w)
+    w.speeds[:POSE] = plate
+    normalise(w.jacobian, w.speeds, law.tool_speeds, w.scaled)
     return measure
 
 
 @kernel
-def prepare(
-    chain, footing, q, weights, fastest, tool_speeds, feedback, target, target_velocity, gain, arm_alone, law, speeds,
-    velocity, w, f, rows, lower, upper, which,
-):  # fmt: skip
+def prepare(chain, footing, q, weights, law, feedback, target, target_velocity, arm_alone, w, p):
     """One step's programme: V, of all that takes part or of the arm alone, and how many rows it has."""
-    measure = see(chain, footing, q, weights, fastest, tool_speeds, True, speeds, w)
+    measure = see(chain, footing, q, weights, law, True, w)
     if arm_alone:
-        measure = _see_arm(speeds, tool_speeds, w)
-    _wanted(feedback, target, target_velocity, w.place, tool_speeds, True, velocity)
-    count = write_programme(
-        chain, footing, q, speeds, tool_speeds, velocity, gain, law, w, f, rows, lower, upper, which
-    )  # fmt: skip
-    return measure, count
+        measure = _see_arm(law, w)
+    _want(feedback, target, target_velocity, law, True, w)
+    return measure, write_programme(chain, footing, q, law, w, p)
 
 
 @kernel
-def finish(chain, footing, q, x, multipliers, count, speeds, lower, upper, which, time, tight, w):
+def finish(chain, footing, q, x, multipliers, count, time, tight, w, p):
     """Rates from the solution, and the largest share of the step within all bounds."""
-    mark_tight(multipliers, count, q.size, which, tight)
-    take_rates(x, speeds, lower, upper, w.rates)
-    return share_within(chain, footing, q, w.rates, time, w)
+    mark_tight(multipliers, count, p, tight)
+    take_rates(x, p, w)
+    return share_within(chain, footing, q, time, w)
 
 
 @kernel
-def move_freely(
-    chain, footing, q, weights, fastest, tool_speeds, feedback, target, target_velocity, gain, printed, damping, time,
-    speeds, velocity, w,
-):  # fmt: skip
+def move_freely(chain, footing, q, weights, law, feedback, target, target_velocity, printed, time, w):
     """One step of equation 19 without limits; returns V. The plate is where its freedoms say, on no feet."""
-    measure = see(chain, footing, q, weights, fastest, tool_speeds, False, speeds, w)
-    _wanted(feedback, target, target_velocity, w.place, tool_speeds, False, velocity)
+    measure = see(chain, footing, q, weights, law, False, w)
+    _want(feedback, target, target_velocity, law, False, w)
     if printed:
         plain = manipulability(w.jacobian, w.grams)
         manipulability_gradient(plain, w.jacobian, w.grams, w.curvature, w.ones, w.ones[:3], w.gradient)
-    share_motion(
-        w.scaled, speeds, tool_speeds, velocity, w.gradient, gain, damping, w.square, w.right, w.rates
-    )  # fmt: skip
+    _share_motion(law, w)
     for k in range(q.size):
         w.after[k] = q[k] + time * w.rates[k]
     return measure

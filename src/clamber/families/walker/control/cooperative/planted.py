@@ -165,25 +165,10 @@ def curve_along_feet(jacobian, follow, follow_1, curvature):
         follow, follow_1: From `follow_feet`.
         curvature: H of the free plate from `tool_curvature`, shape (m, 3, m).
     """
-    m = jacobian.shape[1]
+    for k in range(jacobian.shape[1]):
+        along_feet(curvature[k], follow)
     for i in range(3):
-        for k in range(m):
-            for j in range(3):
-                total = 0.0
-                for row in range(3):
-                    total += curvature[k, i, _freedom(row)] * follow[row, j]
-                curvature[k, i, _cause(j)] += total
-            for row in range(3):
-                curvature[k, i, _freedom(row)] = 0.0
-        for k in range(m):
-            for j in range(3):
-                total = 0.0
-                for row in range(3):
-                    total += curvature[_freedom(row), i, k] * follow[row, j]
-                curvature[_cause(j), i, k] += total
-        for k in range(m):
-            for row in range(3):
-                curvature[_freedom(row), i, k] = 0.0
+        along_feet(curvature[:, i].T, follow)
         for j in range(3):
             for k in range(3):
                 total = 0.0

@@ -79,18 +79,16 @@ def y_in_delta(footing, q, turn, place):
 
 
 @kernel
-def bound_values(footing, q, turn, s, place, slope, values):
+def bound_values(footing, q, w, values):
     """Every bounded quantity at a configuration.
 
     Args:
         footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
-        turn: R from `plate_turn`.
-        s: First moment of the arm, plate frame [kg m], shape (3,).
-        place: Scratch, left with the Y-frame's offset and twist in the Delta-frame, shape (3,).
-        slope: Scratch, shape (3,).
+        w: A `Scratch` with R and the arm's first moment; its `y_place` is left with the Y-frame's offset and twist in the Delta-frame.
         values: Filled, shape (N_ROWS,): lengths [m]; room to the singularity's guard [-]; distances inside the support's edges [m].
     """
+    turn, s, place, slope = w.turn, w.s, w.y_place, w.slope
     y_in_delta(footing, q, turn, place)
     px, py = place[0], place[1]
     c, sine = math.cos(place[2]), math.sin(place[2])
@@ -114,19 +112,15 @@ def bound_values(footing, q, turn, s, place, slope, values):
 
 
 @kernel
-def bound_gradients(footing, q, turn, turn_1, s, ds, place, moved, slope, lengths, by_place, gradients):
+def bound_gradients(footing, q, w):
     """Derivatives of `bound_values` by the freedoms of a plate that moves freely (`along_feet` makes those of a planted one).
 
     Args:
-        footing, q, turn, s: As there.
-        turn_1: From `plate_turn`.
-        ds: Derivatives of s by the arm's joints, shape (joints, 3).
-        place: As `bound_values` left it, shape (3,).
-        moved: Scratch for the derivatives of `place`, shape (3, 6).
-        slope, lengths, by_place: Scratch, shapes (3,), (3,), (3, 3).
-        gradients: Filled, shape (N_ROWS, m).
+        footing, q: As there.
+        w: A `Scratch` after it; its `gradients` are filled.
     """
-    m = q.size
+    m, turn, turn_1, s, ds, place = q.size, w.turn, w.turn_1, w.s, w.ds, w.y_place
+    moved, slope, lengths, by_place, gradients = w.moved, w.slope, w.lengths, w.by_place, w.gradients
     gradients[:] = 0.0
     moved[:] = 0.0
     cb, sb, cg, sg = math.cos(q[BETA]), math.sin(q[BETA]), math.cos(q[GAMMA]), math.sin(q[GAMMA])

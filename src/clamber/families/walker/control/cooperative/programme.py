@@ -7,7 +7,7 @@ they are damped (`calm`). A limit g is approached like a wall in a thick fluid: 
 what is left.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -27,8 +27,28 @@ MUCH = 0.1
 """One that misses so much is damped fully [-]."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Programme:
+class Law(NamedTuple):
+    """Numbers of the law, as kernels read them."""
+
+    fastest: Floats
+    """Largest speeds of the freedoms, T_q's, shape (m,) [m/s, rad/s]."""
+    tool_speeds: Floats
+    """Largest speeds of the tool, T_v's, shape (3,) [m/s]."""
+    gain: float
+    """k_p of the manipulability's gradient [-]."""
+    approach: float
+    """kappa: the rate towards a limit is at most this times what is left [1/s]."""
+    inside: float
+    """The bounds' inner margin [m]."""
+    softness: float
+    """lambda [-]."""
+    little: Floats
+    """What `calm` takes for little, of the plate and of the arm, shape (2,) [-]."""
+    enough: Floats
+    """Likewise for enough."""
+
+
+class Programme(NamedTuple):
     """Arrays of the programme in q^ (m) and e (3): 1/2 |x|^2 + f.x, lower <= [x_m; A x] <= upper."""
 
     f: Floats
@@ -63,28 +83,24 @@ def make_programme(m: int) -> Programme:
 
 
 @kernel
-def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law, w, f, rows, lower, upper, which):
+def write_programme(chain, footing, q, law, w, p):
     """Write the programme of one step; returns how many rows it has.
 
     Args:
         chain: A `Chain`.
         footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
-        speeds: Their largest speeds now, shape (m,); 0 switches one off.
-        tool_speeds: T_v's [m/s], shape (3,).
-        velocity: Wanted of the tool, feedback included [m/s], shape (3,).
-        gain: k_p [-].
-        law: kappa [1/s], the bounds' inner margin [m], lambda [-], and what `calm` takes for little and for enough, of
-            the plate and of the arm, shape (7,).
-        w: A `Scratch` after `see_measure`.
-        f, rows, lower, upper, which: Of a `Programme`, filled.
+        law: A `Law`.
+        w: A `Scratch` after `see_measure`, its `velocity` what is wanted of the tool.
+        p: A `Programme`, filled.
     """
-    m = q.size
+    m, speeds = q.size, w.speeds
+    f, rows, lower, upper, which = p.f, p.rows, p.lower, p.upper, p.which
     joints = m - POSE
     quick = joints + N_ROWS  # first name of a speed
-    kappa, inside = law[0], law[1]
+    kappa, inside = law.approach, law.inside
     for k in range(m):
-        f[k] = -gain * w.gradient[k]
+        f[k] = -law.gain * w.gradient[k]
         lower[k], upper[k] = -1.0, 1.0
         which[k, 0] = which[k, 1] = quick + k
         if k >= POSE and speeds[k] > 0.0:
@@ -100,8 +116,8 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
         for k in range(m):
             rows[i, k] = w.scaled[i, k]
         for j in range(3):
-            rows[i, m + j] = law[2] if i == j else 0.0
-        lower[m + i] = velocity[i] / tool_speeds[i]
+            rows[i, m + j] = law.softness if i == j else 0.0
+        lower[m + i] = w.velocity[i] / law.tool_speeds[i]
         upper[m + i] = lower[m + i]
     count = 3
     for row in range(BALANCE + footing.n_edges):
@@ -135,7 +151,7 @@ def write_programme(chain, footing, q, speeds, tool_speeds, velocity, gain, law,
 
 
 @kernel
-def calm(x, count, f, rows, lower, upper, speeds, law):
+def calm(x, count, law, w, p):
     """Make motion dear where the tool is held back and spends much on little; whether that is so.
 
     On a stretched arm, at joints' ends, or in a corner of the plate's limits, freedoms would run at full speed for next to nothing and
@@ -145,29 +161,30 @@ def calm(x, count, f, rows, lower, upper, speeds, law):
     Args:
         x: Solution, shape (m + 3,).
         count: Rows, the tool's three among them.
-        f, rows, lower, upper: Of the programme; the part of what is damped is scaled.
-        speeds: Largest speeds, by which the solution is multiplied, scaled likewise, shape (m,).
-        law: As of `write_programme`.
+        law: A `Law`.
+        w: A `Scratch`; its speeds, by which the solution is multiplied, are scaled like what is damped of the programme.
+        p: A `Programme`.
     """
-    m = x.size - 3
+    m, softness = x.size - 3, law.softness
+    f, rows, lower, upper, speeds = p.f, p.rows, p.lower, p.upper, w.speeds
     wanted, missed, gained = 0.0, 0.0, 0.0
     for i in range(3):
         wanted += lower[m + i] * lower[m + i]
-        missed += (law[2] * x[m + i]) ** 2
-        gained += (lower[m + i] - law[2] * x[m + i]) ** 2
-    if missed <= HARDLY * HARDLY * wanted + (GIVES * law[2] * law[2]) ** 2:
+        missed += (softness * x[m + i]) ** 2
+        gained += (lower[m + i] - softness * x[m + i]) ** 2
+    if missed <= HARDLY * HARDLY * wanted + (GIVES * softness * softness) ** 2:
         return False
     held = min(1.0, missed / (MUCH * MUCH * wanted))
     any_dear = False
     for group in range(2):
         first, end = (0, POSE) if group == 0 else (POSE, m)
-        little, enough = law[3 + 2 * group], law[4 + 2 * group]
+        little, enough = law.little[group], law.enough[group]
         spent = 0.0
         for k in range(first, end):
             spent += x[k] * x[k]
         if gained >= little * little * spent:
             continue
-        dear = enough * held * (1.0 - gained / (little * little * spent)) / (law[2] * law[2])
+        dear = enough * held * (1.0 - gained / (little * little * spent)) / (softness * softness)
         if dear <= 1.0:
             continue
         any_dear = True
@@ -183,46 +200,45 @@ def calm(x, count, f, rows, lower, upper, speeds, law):
 
 
 @kernel
-def let_rest(count, m, lower, upper):
+def let_rest(count, p):
     """Let every bound's row allow rest, which then satisfies all of them: for where pushing back from two walls at once cannot be.
 
     Args:
         count: Rows, the tool's three among them.
-        m: Freedoms.
-        lower, upper: Of the programme, changed.
+        p: A `Programme`, changed.
     """
+    m = p.f.size - 3
     for k in range(m + 3, m + count):
-        lower[k] = min(0.0, lower[k])
-        upper[k] = max(0.0, upper[k])
+        p.lower[k] = min(0.0, p.lower[k])
+        p.upper[k] = max(0.0, p.upper[k])
 
 
 @kernel
-def mark_tight(multipliers, count, m, which, tight):
+def mark_tight(multipliers, count, p, tight):
     """How strongly each limit holds the motion back.
 
     Args:
         multipliers: Of the solution, positive at upper bounds, shape (at least m + count,).
         count: Rows, the tool's three among them.
-        m: Freedoms.
-        which: Of the programme.
+        p: A `Programme`.
         tight: Filled with the size of the multiplier, 0 where the limit is not touched, shape (names,).
     """
+    m = p.f.size - 3
     tight[:] = 0.0
     for k in range(m + count):
         if not m <= k < m + 3 and multipliers[k] != 0.0:
-            name = which[k, 1] if multipliers[k] > 0.0 else which[k, 0]
+            name = p.which[k, 1] if multipliers[k] > 0.0 else p.which[k, 0]
             tight[name] = max(tight[name], abs(multipliers[k]))
 
 
 @kernel
-def take_rates(x, speeds, lower, upper, rates):
-    """q_dot from the solution: the solver keeps bounds to its tolerance, the clip to the last bit.
+def take_rates(x, p, w):
+    """q_dot from the solution, into the scratch: the solver keeps bounds to its tolerance, the clip to the last bit.
 
     Args:
         x: Solution, shape (m + 3,).
-        speeds: Largest speeds now, shape (m,).
-        lower, upper: Of the programme.
-        rates: Filled [m/s, rad/s], shape (m,).
+        p: A `Programme`.
+        w: A `Scratch`.
     """
-    for k in range(speeds.size):
-        rates[k] = min(upper[k], max(lower[k], x[k])) * speeds[k]
+    for k in range(w.speeds.size):
+        w.rates[k] = min(p.upper[k], max(p.lower[k], x[k])) * w.speeds[k]

@@ -128,6 +128,10 @@ class Scratch(NamedTuple):
     """Shape (N_ROWS, m)."""
     ahead: Floats
     """Values after a step, shape (N_ROWS,)."""
+    speeds: Floats
+    """Largest of the freedoms now, shape (m,); 0 switches one off."""
+    velocity: Floats
+    """Wanted of the tool, feedback included, shape (3,) [m/s]."""
     rates: Floats
     """Shape (m,)."""
     after: Floats
@@ -167,6 +171,8 @@ def make_scratch(n_joints: int) -> Scratch:
         values=np.zeros(N_ROWS),
         gradients=np.zeros((N_ROWS, m)),
         ahead=np.zeros(N_ROWS),
+        speeds=np.zeros(m),
+        velocity=np.zeros(3),
         rates=np.zeros(m),
         after=np.zeros(m),
         square=np.zeros((3, 3)),
@@ -186,9 +192,9 @@ def see_tool(chain, q, w):
     """
     plate_turn(q[3:POSE], w.turn, w.turn_1, w.turn_2)
     arm_vector(chain.links, chain.shape[0], chain.shape[1], q[POSE:], w.a, w.da, w.dda)
-    tool_place(q, w.turn, w.a, w.place)
-    tool_jacobian(w.turn, w.turn_1, w.a, w.da, w.jacobian)
-    tool_curvature(w.turn, w.turn_1, w.turn_2, w.a, w.da, w.dda, w.curvature)
+    tool_place(q, w)
+    tool_jacobian(w)
+    tool_curvature(w)
 
 
 @kernel
@@ -202,10 +208,8 @@ def see_bounds(chain, footing, q, w):
         w: A `Scratch`.
     """
     arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, q[POSE:], w.s, w.ds, w.dds)
-    bound_values(footing, q, w.turn, w.s, w.y_place, w.slope, w.values)
-    bound_gradients(
-        footing, q, w.turn, w.turn_1, w.s, w.ds, w.y_place, w.moved, w.slope, w.lengths, w.by_place, w.gradients
-    )
+    bound_values(footing, q, w, w.values)
+    bound_gradients(footing, q, w)
     if footing.support != Y_STANDS:
         follow_feet(q, footing.anchor, w.follow, w.follow_1)
         curve_along_feet(w.jacobian, w.follow, w.follow_1, w.curvature)
@@ -229,25 +233,24 @@ def see_measure(speeds, tool_speeds, w):
 
 
 @kernel
-def step_to(footing, q, rates, time, share, after):
-    """The configuration after a share of a step: x, y and alpha by the planted feet if there are some.
+def step_to(footing, q, time, share, w):
+    """The configuration after a share of a step by the scratch's rates: x, y and alpha by the planted feet if there are some.
 
     Args:
         footing: Record of `PLANTED_FEET`.
         q: Freedoms, shape (m,).
-        rates: Shape (m,).
         time: Of the whole step [s].
         share: How much of it [-].
-        after: Filled, shape (m,).
+        w: A `Scratch`; its `after` is filled.
     """
     for k in range(q.size):
-        after[k] = q[k] + share * time * rates[k]
+        w.after[k] = q[k] + share * time * w.rates[k]
     if footing.support != Y_STANDS:
-        stand(after, footing.anchor, footing.heading)
+        stand(w.after, footing.anchor, footing.heading)
 
 
 @kernel
-def share_within(chain, footing, q, rates, time, w):
+def share_within(chain, footing, q, time, w):
     """The largest share of a step [-] after which every bound holds and no actuator or leg was too fast, to a thousandth.
 
     The arm's joints are bounded one by one, which the rates keep exactly; the plate's bounds are curved, so they are looked at.
@@ -256,14 +259,13 @@ def share_within(chain, footing, q, rates, time, w):
         chain: A `Chain`.
         footing: Record of `PLANTED_FEET`.
         q: Freedoms, within the bounds, shape (m,).
-        rates: Shape (m,).
         time: Of the step [s].
-        w: A `Scratch` after `see_bounds`; `after` is left with the configuration that is reached.
+        w: A `Scratch` after `see_bounds`, with the rates; `after` is left with the configuration that is reached.
     """
     low, high = 0.0, 1.0
     share = 1.0
     for _ in range(11):
-        step_to(footing, q, rates, time, share, w.after)
+        step_to(footing, q, time, share, w)
         if _holds(chain, footing, time, w):
             low = share
             if share == 1.0:
@@ -271,7 +273,7 @@ def share_within(chain, footing, q, rates, time, w):
         else:
             high = share
         share = 0.5 * (low + high)
-    step_to(footing, q, rates, time, low, w.after)
+    step_to(footing, q, time, low, w)
     return low
 
 
@@ -279,7 +281,7 @@ def share_within(chain, footing, q, rates, time, w):
 def _holds(chain, footing, time, w):
     plate_turn(w.after[3:POSE], w.turn, w.turn_1, w.turn_2)
     arm_vector(chain.moment_links, footing.moment_out, footing.moment_up, w.after[POSE:], w.s, w.ds, w.dds)
-    bound_values(footing, w.after, w.turn, w.s, w.y_place, w.slope, w.ahead)
+    bound_values(footing, w.after, w, w.ahead)
     for row in range(BALANCE + footing.n_edges):
         if not chain.row_lowest[row] <= w.ahead[row] <= chain.row_highest[row]:
             return False

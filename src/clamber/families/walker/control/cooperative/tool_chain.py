@@ -12,28 +12,17 @@ POSE = 6
 
 
 @kernel
-def tool_place(q, turn, a, place):
-    """The point r = t + R a.
-
-    Args:
-        q: Freedoms [m, rad], shape (6 + joints,).
-        turn: R from `plate_turn`, shape (3, 3).
-        a: Vector in the plate's frame [m], shape (3,).
-        place: Filled with the point, world [m], shape (3,).
-    """
+def tool_place(q, w):
+    """The point r = t + R a, world [m], from freedoms [m, rad], shape (6 + joints,), and a `Scratch`."""
+    turn, a = w.turn, w.a
     for i in range(3):
-        place[i] = q[i] + turn[i, 0] * a[0] + turn[i, 1] * a[1] + turn[i, 2] * a[2]
+        w.place[i] = q[i] + turn[i, 0] * a[0] + turn[i, 1] * a[1] + turn[i, 2] * a[2]
 
 
 @kernel
-def tool_jacobian(turn, turn_1, a, da, jacobian):
-    """J = [I | dR/dalpha a, dR/dbeta a, dR/dgamma a | R da/dtheta_i] of `tool_place`.
-
-    Args:
-        turn, turn_1: From `plate_turn`.
-        a, da: From `arm_vector`.
-        jacobian: Filled, shape (3, 6 + joints).
-    """
+def tool_jacobian(w):
+    """J = [I | dR/dalpha a, dR/dbeta a, dR/dgamma a | R da/dtheta_i] of `tool_place`, from a `Scratch`."""
+    turn, turn_1, a, da, jacobian = w.turn, w.turn_1, w.a, w.da, w.jacobian
     for i in range(3):
         for k in range(3):
             jacobian[i, k] = 1.0 if i == k else 0.0
@@ -43,14 +32,9 @@ def tool_jacobian(turn, turn_1, a, da, jacobian):
 
 
 @kernel
-def tool_curvature(turn, turn_1, turn_2, a, da, dda, curvature):
-    """dJ/dq_k, symmetric in k and the column.
-
-    Args:
-        turn, turn_1, turn_2: From `plate_turn`.
-        a, da, dda: From `arm_vector`.
-        curvature: Filled with d^2 r_i / dq_k dq_j at [k, i, j], shape (m, 3, m) with m = 6 + joints.
-    """
+def tool_curvature(w):
+    """dJ/dq_k, symmetric in k and the column, from a `Scratch`: d^2 r_i / dq_k dq_j at [k, i, j]."""
+    turn, turn_1, turn_2, a, da, dda, curvature = w.turn, w.turn_1, w.turn_2, w.a, w.da, w.dda, w.curvature
     n = da.shape[0]
     for i in range(3):
         for j in range(POSE + n):
