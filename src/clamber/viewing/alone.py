@@ -33,7 +33,7 @@ class Alone:
     task: Any
     """Stands in for a task: robot and world, nothing to plan."""
     bounds: Bounds
-    """The part of the world that is shown."""
+    """The part of the world shown."""
     draw: Callable[[Axes], None]
     """Draws it on axes of world metres, and sets them up."""
     at: Any = None

@@ -42,7 +42,7 @@ PLACES: Final = np.array((1 << 16, 1 << 8, 1), np.uint32)
 
 
 def untold(frame: int, of: int) -> None:
-    """The progress that nobody is told."""
+    """Progress that nobody is told."""
 
 
 class Animated(Protocol[Moment]):
@@ -163,7 +163,7 @@ def write_mp4(picture: Animated[Any], path: Path, progress: Progress = untold) -
 
 
 def has_ffmpeg() -> bool:
-    """Whether videos can be made here."""
+    """Whether videos can be made."""
     return importlib.util.find_spec("imageio_ffmpeg") is not None
 
 

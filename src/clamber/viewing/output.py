@@ -83,7 +83,7 @@ def drawing(path: str | Path, size: tuple[float, float]) -> Iterator[Figure]:
 
 
 def save_figure(figure: Figure, path: str | Path, dpi: int = DPI, colours: int | None = None) -> Path:
-    """Write a figure as its suffix says.
+    """Write a figure by its suffix.
 
     Args:
         figure: What is drawn.
@@ -105,7 +105,7 @@ def save_figure(figure: Figure, path: str | Path, dpi: int = DPI, colours: int |
 
 
 def _indexed(picture: bytes, colours: int) -> bytes:
-    """The same picture with a palette."""
+    """The picture with a palette."""
     out = BytesIO()
     with Image.open(BytesIO(picture)) as full:
         indexed = full.convert("RGB").quantize(colours, dither=Image.Dither.NONE)

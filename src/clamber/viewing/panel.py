@@ -43,7 +43,7 @@ class Gauges:
     limits: tuple[tuple[float, str], ...]
     """Shares of a bar at which a line marks a limit, each with its word."""
     calm: tuple[float, float]
-    """Shares beyond which a bar turns red."""
+    """Shares where a bar turns red."""
     unit: tuple[str, float, int]
     """Of values for people: its name, its size in SI units, decimals."""
     group: int

@@ -50,12 +50,12 @@ class Chart:
 
 @dataclass(frozen=True, slots=True)
 class Pictures:
-    """How one family of robots is drawn."""
+    """How one family is drawn."""
 
     view: Callable[[Any, Replay], View[Any]]
     """A plan at any of its moments."""
     draw: Callable[[Any, np.void, Axes], None]
-    """One stance record on given axes."""
+    """A stance record on given axes."""
     route: Callable[[Any, Replay], Figure]
     """A whole plan."""
     points: Callable[[Any], Floats]

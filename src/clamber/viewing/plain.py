@@ -32,7 +32,7 @@ BODY: Final = 0.02
 MOST_NUMBERED: Final = 200
 """Worlds with more holds show them without their numbers."""
 FACTS_HEIGHT: Final = 0.6
-"""Of the panel beside a whole plan [in]."""
+"""Of a whole plan's panel [in]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,7 +163,7 @@ def bounds_of(task: Any, moments: list[Moment]) -> Bounds:
 
 
 def draw_world(axes: Axes, task: Any, bounds: Bounds) -> None:
-    """Holds with their numbers, and goals."""
+    """Holds by number, and goals."""
     set_axes(axes, task, bounds)
     for k, goal in enumerate(task.goals):
         corners = goal_box(goal, bounds)
@@ -228,7 +228,7 @@ class PlainSolid(Solid):
         self._sticks = self.sticks("limbs", paint, [0.3 * BODY * size] * limbs) if limbs else None
 
     def show(self, at: Moment, grade: int = 3) -> None:
-        """Body and limbs of a moment."""
+        """A moment's body and limbs."""
         centre = np.array((at.pose[0], 0.0, at.pose[1]))
         self.middle = centre
         self._ball.put(centre[None])

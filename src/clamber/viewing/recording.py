@@ -53,7 +53,7 @@ class MarginRow:
 
 @dataclass(frozen=True, slots=True)
 class Part(Generic[Moment]):
-    """One part of an action's motion."""
+    """Part of an action's motion."""
 
     kind: str
     """One of `FRAMES`."""
@@ -66,13 +66,13 @@ class Recording(ABC, Generic[Moment]):
 
     title: str
     seconds: float
-    """How long it takes at speed 1 [s]."""
+    """Its length at speed 1 [s]."""
     speed: float = 1.0
     """At which it is played unless asked otherwise [-]."""
     gauges: tuple[Gauges, ...]
-    """Blocks of bars, of what is limited."""
+    """Blocks of bars, of limits."""
     steps: tuple[str, ...]
-    """In words; the first is the start."""
+    """In words, the start first."""
     grades: tuple[int, ...]
     """Of the steps, as colours of `style.STRIP`; the start's does not count."""
     noun: str = "Step"
@@ -176,7 +176,7 @@ class View(Recording[Moment]):
 
     task: Any
     bounds: Bounds
-    """The part of the world that is shown."""
+    """The part of the world shown."""
     rows: ClassVar[tuple[str, ...]]
     """Names of the facts in the picture's panel; the verdict comes after them."""
     verdict_row: ClassVar[str] = "Nearest limit"

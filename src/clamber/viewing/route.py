@@ -21,7 +21,7 @@ GHOSTS: Final = 6
 FACTS: Final = 1.85
 """Height of the panel's facts and strip [in]."""
 ROW: Final = 0.15
-"""Height of a row of small print [in]."""
+"""Of a row of small print [in]."""
 
 
 def pick_ghosts(places: Floats, most: int = GHOSTS) -> list[int]:

@@ -45,7 +45,7 @@ RC: Final[dict[str, Any]] = {
     "savefig.facecolor": PAPER,
     "svg.hashsalt": "clamber",  # the same picture gives the same bytes
 }
-"""Matplotlib settings of every picture."""
+"""Settings of every picture."""
 
 
 def styled() -> AbstractContextManager[None]:

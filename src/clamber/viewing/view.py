@@ -88,9 +88,9 @@ class CloseUp:
     """A robot and what is about it."""
 
     bounds: Bounds
-    """What is shown, world frame [m]."""
+    """What is shown, world [m]."""
     draw: Callable[[Axes], None]
-    """Draws it on axes, and sets them up."""
+    """Draws it, and sets axes up."""
 
 
 class Robot(Protocol[Shown]):
@@ -98,7 +98,7 @@ class Robot(Protocol[Shown]):
 
     @property
     def artists(self) -> list[Artist]:
-        """All artists, from back to front."""
+        """All, from back to front."""
         ...
 
     def update(self, at: Shown) -> None:

@@ -190,7 +190,7 @@ class App:
             self.choose("plan")
 
     def show_run(self, run: Any) -> None:
-        """Play a run beside its plan."""
+        """Play a run with its plan."""
         self.exhibit.run_film = family_of(self.exhibit.task).scenes.run_film(self.exhibit, run)
         with self.playback.still():
             self.stage.set_film("run", self.exhibit.run_film)

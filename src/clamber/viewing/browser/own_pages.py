@@ -43,7 +43,7 @@ class Guard:
         self._names = names
 
     def admits(self, path: str, headers: Any) -> bool:
-        """Whether a request is answered.
+        """Whether it answers a request.
 
         Args:
             path: What it asks for.

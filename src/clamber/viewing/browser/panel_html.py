@@ -110,7 +110,7 @@ def step_margins_html(film: Recording[Any], step: int, plan: Recording[Any] | No
 
 
 def loads_html(blocks: tuple[Gauges, ...], values: tuple[Floats, ...]) -> str:
-    """Blocks of bars, one below the other."""
+    """Blocks of bars in a column."""
     return '<div style="height:8px"></div>'.join(map(bars_html, blocks, values))
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     import viser
 
 PERIOD: Final = 1.0 / 30.0
-"""Between two pictures while it plays [s]."""
+"""Between two pictures in play [s]."""
 BAR_PERIOD: Final = 0.12
 """Between two moves of the time bar while it plays [s]."""
 SPEEDS: Final = (0.25, 0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
@@ -27,7 +27,7 @@ Show = Callable[[Recording[Any], float], None]
 
 
 class Playback:
-    """Shows a film from a clock of its own.
+    """Shows a film by its own clock.
 
     Args:
         server: Whose panel has the controls; they are made where its context is.

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from .viewer_content import ViewerContent
 
 WORDS_PERIOD: Final = 0.12
-"""Between two texts while it plays [s]."""
+"""Between two texts in play [s]."""
 GHOST: Final = 0.3
-"""Opacity of a plan beside its run [-]."""
+"""Opacity of a run's plan [-]."""
 Shown = Literal["plan", "run", "both"]
 STRIPS: Final = {"plan": "Smallest margin of every", "run": "What became of every"}
 """What a strip tells of each of a film's steps."""
@@ -119,7 +119,7 @@ class SceneView:
 
     @property
     def main(self) -> Recording[Any]:
-        """The film that gives the time."""
+        """Film that gives the time."""
         return self.films[self.main_kind]
 
     def show(self, film: Recording[Any], at: float) -> None:

@@ -25,7 +25,7 @@ Mesh = tuple[Floats, Ints]
 Colours = npt.NDArray[np.uint8]
 """Shape (n, 3)."""
 Colour = tuple[int, int, int]
-"""Red, green and blue, from 0 to 255."""
+"""Red, green and blue, 0 to 255."""
 
 
 class Figure(ABC):
@@ -53,7 +53,7 @@ class Figure(ABC):
         self.root.visible = not hidden
 
     def remove(self) -> None:
-        """Take the figure away for good."""
+        """Take it away for good."""
         self.root.remove()
 
     def sticks(self, part: str, colours: Sequence[Colour], radii: Sequence[float]) -> "Sticks":
@@ -62,7 +62,7 @@ class Figure(ABC):
         return Sticks(self._server, f"{self._name}/{part}", paint, np.array(radii), self._opacity)
 
     def balls(self, part: str, colours: Sequence[Colour], radii: Sequence[float]) -> "Balls":
-        """Balls of the figure, likewise."""
+        """Its balls, likewise."""
         paint = np.array(colours, np.uint8)
         return Balls(self._server, f"{self._name}/{part}", paint, np.array(radii), self._opacity)
 
@@ -97,7 +97,7 @@ class World(Protocol):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Camera:
-    """Where to look from, in space [m]."""
+    """Where to look from [m]."""
 
     position: Floats
     look_at: Floats
@@ -108,7 +108,7 @@ class Scenery(ABC):
     """A task's world and robot, ready to be put into a scene."""
 
     bounds: Bounds
-    """The part of the world that is shown."""
+    """The part of the world shown."""
 
     @abstractmethod
     def world(self, server: "viser.ViserServer") -> World:
@@ -120,7 +120,7 @@ class Scenery(ABC):
 
     @abstractmethod
     def camera(self) -> Camera:
-        """Where to look from at first."""
+        """Where to look from first."""
 
 
 class _Nothing(Figure):
@@ -163,7 +163,7 @@ SIDES: Final = 20
 
 
 def colour(name: str) -> Colour:
-    """A colour as the browser takes it."""
+    """A colour as browsers take it."""
     red, green, blue = to_rgb(name)
     return round(255 * red), round(255 * green), round(255 * blue)
 
@@ -358,4 +358,4 @@ class Rigid(_Batch):
 
 
 DISC: Final = np.stack((np.cos(np.arange(24) * np.pi / 12.0), np.sin(np.arange(24) * np.pi / 12.0)), axis=-1)
-"""Corners of a round mark of radius 1."""
+"""Corners of a disc of radius 1."""

@@ -62,7 +62,7 @@ class Planned:
 
     plan: Plan | None
     words: str
-    """What was found, or why nothing was."""
+    """What was found, or why not."""
 
 
 class Editor(Protocol):
@@ -110,7 +110,7 @@ class Scenes(ABC):
         raise NotOfFamilyError(family_of(exhibit.task).title, "film of its runs")
 
     def with_log(self, exhibit: ViewerContent, log: Log) -> ViewerContent:
-        """The same with the run of a log.
+        """The same with a log's run.
 
         Raises:
             ClamberError: If the log is no such robot's.

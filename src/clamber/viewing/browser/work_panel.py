@@ -226,7 +226,7 @@ class WorkPanel:
         self._stop_button.on_click(lambda _: self.background_task.stop())
 
     def plan(self) -> None:
-        """Plan the task as it is now."""
+        """Plan the present task."""
         task, planner, seconds = self._task, self._planner.value, float(self._seconds.value)
         reserves = self._reserves.value
 

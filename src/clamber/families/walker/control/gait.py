@@ -19,7 +19,7 @@ from .walker_balance import mass_moment
 
 DELTA: Final = 0
 Y: Final = 1
-"""The frames, in the order of every array."""
+"""Frames, in the order of arrays."""
 SAMPLES: Final = 24
 """Places where a slide is looked at."""
 FINE: Final = 0.001
@@ -84,14 +84,14 @@ def _inside(a: Floats, b: Floats, points: Floats) -> Floats:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Step:
-    """One frame's way through the air."""
+    """A frame's way through the air."""
 
     swing: int
     """The frame that is lifted."""
     way: float
     """Where on the track it comes down [m]."""
     end: Floats
-    """Pose of the frame there, shape (3,)."""
+    """The frame's pose, shape (3,)."""
     room: float
     """Least room of the mechanism on the way [m]."""
     balance: float

@@ -64,7 +64,7 @@ class Inclination:
     def __init__(self, trust: InclinometerTrust, period: float) -> None:
         self.trust, self._period = trust, period
         together = max(1.0, 2.0 * trust.time_constant / period)
-        """Readings that are worth one."""
+        """Readings worth one."""
         self._noise = together * trust.noise**2
         self._lag = min(1.0, period / trust.time_constant) if trust.time_constant > 0.0 else 1.0
         self.offsets: Floats = np.zeros(2)

@@ -28,7 +28,7 @@ class Track:
     """Where the robot is to go: pieces of constant body twist, one after another. Places on it are told by the way to them [m]."""
 
     start: Floats
-    """Pose of the Delta-frame at way 0."""
+    """Delta-frame's pose at way 0."""
     twists: Floats
     """Of each piece, times its time: x, y [m], turn [rad] in the moving frame, shape (pieces, 3)."""
     ways: Floats
@@ -101,7 +101,7 @@ def through(start: Floats, poses: Floats, radius: float, *, within: float = 0.0)
 
 
 def _apart(a: Floats, b: Floats, radius: float) -> Floats:
-    """Distances of poses, shape (n,) [m]."""
+    """Between poses, shape (n,) [m]."""
     turns = np.remainder(b[:, 2] - a[:, 2] + math.pi, math.tau) - math.pi
     out: Floats = np.hypot(np.hypot(b[:, 0] - a[:, 0], b[:, 1] - a[:, 1]), radius * turns)
     return out

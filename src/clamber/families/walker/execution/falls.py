@@ -29,7 +29,7 @@ TILTED: Final = math.radians(6.0)
 
 
 class FallWatch:
-    """Looks at forces and tilt tick by tick.
+    """Looks at forces and tilt.
 
     Args:
         weight: Of the robot with its arm [N].

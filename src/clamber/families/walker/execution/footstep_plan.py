@@ -18,7 +18,7 @@ from .walker import Walker
 ASTRAY = 0.02
 """A planned step is not tried where the frame that stands is farther than this from where the plan has it [m] ..."""
 TURNED = 0.02
-"""... or turned by more than this [rad]."""
+"""... or turned by more [rad]."""
 
 
 @dataclass(slots=True, eq=False)

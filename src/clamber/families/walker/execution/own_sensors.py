@@ -18,7 +18,7 @@ LAGS: Final = 0.2
 BLOWS: Final = 10.0
 """A blow bends a leg or an actuator so much faster than its motor goes [-]: in walks without a fault by up to its own speed."""
 ACTUATORS, LEGS, FORCES, INCLINES, ARM = slice(0, 3), slice(3, 9), slice(9, 15), slice(15, 17), slice(17, None)
-"""Where the channels of each kind are."""
+"""Where channels of a kind are."""
 
 
 def channels_of(robot: WalkerRobot) -> tuple[Channel, ...]:
@@ -56,7 +56,7 @@ class OwnSensors:
         self._behind[:] = 0.0
 
     def read(self, sensed: WalkerSensed) -> WalkerSensed:
-        """What is to be believed of a tick.
+        """What to believe of a tick.
 
         Raises:
             FaultError: If a sensor or the link has failed.

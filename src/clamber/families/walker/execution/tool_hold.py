@@ -65,7 +65,7 @@ FINE: Final = 0.001
 EDGE: Final = 0.03
 """The tool comes so far inside where the arm can just reach, and leaves as early [m]: lifting moves the plate by a centimetre or two."""
 STEP: Final = 0.2
-"""A step takes the plate no farther [m]."""
+"""The plate's longest step [m]."""
 CHANGE: Final = 0.008
 """By how much a lift may take the plate higher or lower for the tool [m]: the legs are slow, and it is to rest before feet land."""
 SHARES: Final = (0.25, 0.5, 0.75, 1.0)

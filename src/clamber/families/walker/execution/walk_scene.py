@@ -14,7 +14,7 @@ from .walk_trace import walk_titles
 GROUND: Final = "ground"
 PLATE, SECOND = FRAME_TITLES
 COLOURS: Final = ("#0072B2", "#D55E00")
-"""Of the Delta-frame and the Y-frame."""
+"""Of Delta-frame and Y-frame."""
 LEVEL: Final = "#ECE9E1"
 HIGHER: Final = "#E0C9A0"
 LOWER: Final = "#9FB0C0"

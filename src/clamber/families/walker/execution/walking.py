@@ -110,7 +110,7 @@ SHORTER: Final = (0.6, 0.3, 0.0)
 
 
 class Walking(Performer[Step, WalkReport, int, float, float]):
-    """A walker and the way that it is to go.
+    """A walker and the way it is to go.
 
     Args:
         walker: The robot.

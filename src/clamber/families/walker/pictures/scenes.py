@@ -45,7 +45,7 @@ ROOM: Final = 1.05
 TALL: Final = 0.7
 """Height of a robot with its arm, or more [m]."""
 BESIDE: Final = 0.5
-"""Ground that is shown around a walk [m]."""
+"""Ground shown around a walk [m]."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ GRID: Final = "#A8A294"
 CRUST: Final = 0.12
 """How much of the ground is shown below its lowest part [m]."""
 LINES: Final = 0.25
-"""Between the lines on the ground [m]."""
+"""Between lines on the ground [m]."""
 
 
 class GroundScene:

@@ -24,7 +24,7 @@ Y: Final = style.PARTS[2]
 
 
 def draw_robot(axes: Any, footing: PlantedFeet, q: Floats, alpha: float, seen: Sequence[int] = (0, 1, 2)) -> None:
-    """Draw frames, standing legs and arm.
+    """Draw frames, standing legs, arm.
 
     Args:
         axes: As many dimensions as are seen.
@@ -130,13 +130,13 @@ ALPHAS: Final = (0.35, 0.6, 1.0)
 """Of start, middle and end."""
 MOTION_COLOURS: Final = (style.INK, style.PARTS[0], style.PARTS[1], style.PARTS[2])
 DASHES: Final = ("-", (0, (4, 3)), "-", "-")
-"""The second motion may lie on the first."""
+"""The second may lie on the first."""
 COLOURS: Final = (style.QUIET, style.PARTS[0], style.PARTS[1], style.PARTS[2])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """One motion as the pictures need it."""
+    """A motion as pictures need it."""
 
     title: str
     footing: PlantedFeet

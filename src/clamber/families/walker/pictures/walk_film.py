@@ -272,7 +272,7 @@ def _even(value: float, decimals: int) -> str:
 
 
 def weight_on_ground(robot: WalkerRobot, payload: float) -> float:
-    """Of a robot with what it carries [N]."""
+    """Of a robot with its load [N]."""
     return GRAVITY * weight_of(robot, payload=payload).total
 
 

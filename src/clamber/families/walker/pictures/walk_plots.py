@@ -16,7 +16,7 @@ from ..trials.run_walk import WalkRun
 
 AXES: Final = ("along x", "along y")
 MOVING: Final = "#EEF1F4"
-"""Colour of times at which legs move."""
+"""Colour of when legs move."""
 EVERY: Final = 8
 """Of the tilts, that have an arrow."""
 
@@ -30,11 +30,11 @@ class Tilts:
     wanted: Floats
     """How far the plate's axes are to rise [deg], shape (rows, 2)."""
     read: Floats
-    """As inclinometers read it, likewise."""
+    """By inclinometers, likewise."""
     true: Floats
     """As it is, likewise."""
     moves: Sequence[tuple[float, float]]
-    """Times between which legs move [s]."""
+    """Times of legs' motions [s]."""
 
 
 def draw_inclining(courses: Mapping[str, Tilts], *, within: float, path: str | Path) -> None:
@@ -163,7 +163,7 @@ def _course(run: WalkRun) -> tuple[Floats, Floats, Floats]:
 WAY_POINTS: Final = 2000
 """Points of a way, about."""
 HEADING: Final = 0.08
-"""Length of the mark of a heading [m]."""
+"""Length of a heading's mark [m]."""
 
 
 def draw_paths(runs: Mapping[str, WalkRun], centres: Mapping[str, tuple[float, float]], path: str | Path) -> None:

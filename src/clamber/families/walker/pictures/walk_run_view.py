@@ -35,7 +35,7 @@ WIDTH: Final = 9.0
 CURVE: Final = (2.7, 0.85)
 """Least width and height of a curve over time [inch]."""
 TALLEST: Final = 5.0
-"""The view from above, at most [inch]."""
+"""View from above, at most [inch]."""
 WORDS: Final = 0.45
 """What a title and an axis's numbers take, of height and width [inch]."""
 GHOSTS: Final = 5
@@ -262,7 +262,7 @@ class _Drawn:
 
     @property
     def artists(self) -> list[Artist]:
-        """All artists, from back to front."""
+        """All, from back to front."""
         legs, soles = ([one for three in six for one in three] for six in (self.legs, self.soles))
         return [self.support, *legs, *self.actuators, *self.frames, self.arm, *soles, self.centre]
 

@@ -70,7 +70,7 @@ class WalkLoads:
         )  # fmt: skip
 
     def at(self, k: int) -> tuple[Floats, ...]:
-        """What the bars show at a row."""
+        """What bars show at a row."""
         return self.forces[k], self.grip[k], self.legs[k], self.thrusts[k], self.actuators[k]
 
     def left(self, rows: slice) -> list["Left"]:

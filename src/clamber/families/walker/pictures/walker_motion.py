@@ -18,7 +18,7 @@ from ..robot import WalkerRobot
 from ..robot.plane_poses import placed
 
 COLOURS: Final = (style.PARTS[0], style.PARTS[1])
-"""Of the Delta-frame and the Y-frame."""
+"""Of Delta-frame and Y-frame."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,7 +40,7 @@ class WalkShapes:
 
 
 def shapes_at(robot: WalkerRobot, trace: TrueWalk, k: int) -> WalkShapes:
-    """The robot at a row of its trace."""
+    """The robot at a trace's row."""
     axes, origin = plate_axes(*trace.pose[k, 3:]), trace.pose[k, :3]
 
     def in_world(points: Floats, f: int) -> Floats:
@@ -65,7 +65,7 @@ def shapes_at(robot: WalkerRobot, trace: TrueWalk, k: int) -> WalkShapes:
 
 @dataclass(frozen=True, slots=True)
 class WalkerMoment:
-    """A walker, settled or on its way."""
+    """A walker at rest or moving."""
 
     outline: WalkerOutline
     poses: Floats
@@ -88,7 +88,7 @@ class WalkerMoment:
 
 
 def settled_moment(task: WalkerTask, stance: np.void) -> WalkerMoment:
-    """A stance record as it is drawn."""
+    """A stance record, to be drawn."""
     stands = int(stance["stands"])
     return WalkerMoment(outline(task, stance), np.array(stance["pose"]), (float(stands != 0), float(stands != 1)))
 

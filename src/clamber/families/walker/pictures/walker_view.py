@@ -135,7 +135,7 @@ class WalkerArtists:
 
     @property
     def artists(self) -> list[Artist]:
-        """All artists, from back to front."""
+        """All, from back to front."""
         feet = [circle for circles in self.feet for circle in circles]
         every = [self.support, self.plate, *self.rods, *self.actuators, *feet, *self.mass]
         return sorted(every, key=lambda artist: artist.get_zorder())

@@ -5,7 +5,7 @@ from typing import Any
 from ..robot import WalkerRobot
 
 TOOL = "tool"
-"""Name of the site at the tool point."""
+"""Name of the tool point's site."""
 PLATE = (
     ("x", (1, 0, 0)),
     ("y", (0, 1, 0)),
@@ -14,7 +14,7 @@ PLATE = (
     ("beta", (0, 1, 0)),
     ("gamma", (1, 0, 0)),
 )
-"""The plate's freedoms and their axes."""
+"""Freedoms of the plate, and axes."""
 
 
 def chain_model(robot: WalkerRobot) -> Any:

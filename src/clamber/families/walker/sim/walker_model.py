@@ -35,7 +35,7 @@ class WalkerBuild:
     """The parts that the dynamics need and the file does not have."""
 
     actuator: Servo = Servo(stiffness=1e6, damping=1e4)  # frozen
-    """Of the three that slide the frames."""
+    """Those that slide the frames."""
     leg: Servo = Servo(stiffness=5e5, damping=2e4, armature=20.0)  # frozen
     joint: Servo = Servo(stiffness=1e5, damping=5e3, armature=5.0)  # frozen
     """Of the arm."""
@@ -110,7 +110,7 @@ FEET: Final = tuple(f"{frame} foot {i}" for frame in FRAMES for i in range(3))
 
 
 def arm_names(robot: WalkerRobot) -> tuple[str, ...]:
-    """Of the arm's joints and motors."""
+    """Of arm joints and motors."""
     return () if robot.arm is None else tuple(f"arm {k}" for k in range(robot.arm.n_joints))
 
 

@@ -177,7 +177,7 @@ class WalkerSim:
         self.tick = 0
 
     def sense(self) -> WalkerSensed:
-        """Read the sensors, once a tick."""
+        """Read sensors, once a tick."""
         sensed = self._sensed
         sensed.actuators[:] = self._lengths()
         sensed.legs.ravel()[:] = self._qpos[self._at_legs]
