@@ -225,7 +225,6 @@ OTHER_WAYS = {
     "execution/link/token.py": "keeps a secret in a folder that only its user can reach",
     "turns.py": "locks a file in the cache",
     "notebook.py": "reads the picture that was drawn into a folder of ours",
-    "viewing/browser/recording.py": "reads the film that ffmpeg wrote into a folder of ours",
     "viewing/animation.py": "reads the film that ffmpeg wrote into a folder of ours",
     "execution/log_stream.py": "renames what it wrote by the one way",
 }

@@ -62,16 +62,19 @@ class Part(Generic[Thing]):
 
     Args:
         usual: Of families that do not say, like a value of `Family.parts`; None: they have no such thing.
+        derived: What families have that do not say, from their other parts.
     """
 
-    def __init__(self, usual: str | None = None) -> None:
-        self._usual = usual
+    def __init__(self, usual: str | None = None, derived: Callable[[Family], Thing] | None = None) -> None:
+        self._usual, self._derived = usual, derived
 
     def __set_name__(self, owner: type[Any], name: str) -> None:
         self._name = name
 
     def __get__(self, family: Family, owner: type[Any]) -> Thing:
         path = family.parts.get(self._name, self._usual)
+        if path is None and self._derived is not None:
+            return self._derived(family)
         return cast(Thing, None if path is None else _named(path))
 
 
@@ -102,6 +105,8 @@ class Family:
     """How its robots, worlds and tasks are read; every family says that."""
     plans: Part[PlanFamily] = Part()
     """How tasks become problems, and how plans are named, judged and reported; every family says that, too."""
+    checks: Part[tuple[Check, ...]] = Part(derived=lambda family: family.plans.checks)
+    """The checks of its stances, in the order of a replay's margins; stated where `plans` takes much longer to import."""
     relaxations: Part[Callable[[Any], Iterator[Relaxation]] | None] = Part()
     """What can be relaxed in a task, to explain why there is no plan."""
     one_hold_more: Part[Callable[..., Any] | None] = Part()
@@ -128,11 +133,6 @@ class Family:
     """What a task file says, of names or files of a robot and a world, the task's name, and overrides; climbers have another way."""
     imports: Part[Mapping[str, Import] | None] = Part()
     """Suffix of another program's model file, such as ".urdf" -> what makes a robot of one."""
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """The checks of its stances, in the order of a replay's margins."""
-        return self.plans.checks
 
     def whole_robot(self, document: Document) -> Document:
         """A robot's document with what it takes from other files, so that it can be built where those are not."""

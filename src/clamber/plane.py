@@ -28,6 +28,17 @@ def point_segment(px, py, ax, ay, bx, by):
     return math.sqrt(ex * ex + ey * ey)
 
 
+@inlined
+def edge_distance(x, y, polygon):
+    """Distance of a point from the nearest edge of a polygon, shape (n, 2) [m]."""
+    near = math.inf
+    j = polygon.shape[0] - 1
+    for i in range(polygon.shape[0]):
+        near = min(near, point_segment(x, y, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
+        j = i
+    return near
+
+
 @kernel
 def segment_segment(ax, ay, bx, by, cx, cy, dx, dy):
     """Distance of two segments [m]; 0 if they touch or cross."""

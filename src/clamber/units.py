@@ -116,6 +116,14 @@ def split_title(title: str) -> tuple[str, str | None]:
     return inside[: min(opened)].strip(), inside[min(opened) + 1 :].strip() or None
 
 
+def is_number(text: str) -> bool:
+    """Whether a text is a finite number without a unit."""
+    try:
+        return math.isfinite(float(text)) and "_" not in text
+    except ValueError:
+        return False
+
+
 def parse_quantity(text: str, dimension: str) -> float:
     """The SI value of a text such as "3 in", "15deg" or "1500 oz-in".
 

@@ -12,7 +12,7 @@ import pytest
 from clamber.compiled import kernel
 from clamber.errors import SpecError
 from clamber.families.climber.planning.problem import LimbedProblem
-from clamber.families.walker.planning.problem import FEATURE_NAMES, MOVES, WalkerProblem, outline, walker_table
+from clamber.families.walker.planning.problem import MOVES, WalkerProblem, outline, walker_table
 from clamber.families.walker.planning.task import WalkerTask
 from clamber.families.walker.statics.stance import BALANCE, FOOTHOLD, LEGS, SINGULAR, STROKE
 from clamber.families.walker.world.ground import Block, Ground
@@ -22,6 +22,7 @@ from clamber.planning.problem.arrays import ActionTable
 from clamber.planning.problem.codes import MOVE, NONE, RELEASE, pack
 from clamber.planning.problem.family_kernels import bound, key
 from clamber.planning.problem.plan import Plan
+from clamber.planning.problem.problem import FEATURE_NAMES
 from clamber.planning.problem.verdict import check_plan
 from clamber.tasks import load_task, task_from_document
 from clamber.tasks.robots import load_robot

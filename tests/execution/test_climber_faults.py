@@ -21,7 +21,7 @@ from clamber.families.climber.execution.climbing import Climbing
 from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.execution.wiring import guard_of, wiring_of
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.plants import truth_of
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, climbing_task, failing_of, run_plan
 from clamber.planning.problem.plan import Plan, load_plan
@@ -41,7 +41,7 @@ JOINTS = ("right shoulder", "right elbow", "left shoulder", "left elbow", "botto
 
 def climbed(fault: Fault | None, seed: int = 1) -> ClimbRun:
     task, plan = two_rungs()
-    return run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=seed, fault=fault)
+    return run_plan(task, plan, climbing_flaws(task, ()), noise=Noise.of("usual"), seed=seed, fault=fault)
 
 
 def fault_of(kind: str, size: float, channel: int = 0, start: float = FIRST) -> Fault:
@@ -59,7 +59,7 @@ def test_a_link_that_is_caught_at_a_peg_is_no_fault() -> None:
     """For 0.2 s it bears 2 weights that the tips do not feel: once this ended the climb as a weak motor, as it did 7 of 300."""
     task, _ = two_rungs()
     plan = Plan.of_codes(task, CAUGHT)
-    run = run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=1_000_000_154)
+    run = run_plan(task, plan, climbing_flaws(task, ()), noise=Noise.of("usual"), seed=1_000_000_154)
     assert run.done, run.reason
     assert run.report.findings == []
 
@@ -72,7 +72,7 @@ def test_a_joint_that_stood_still_as_the_load_passed_off_its_limb_is_no_fault_on
     task = climbing_task(load_task("circle"))
     codes = load_plan(ROOT / "examples" / "circle" / "plan.json").codes(task)
     plan = Plan.of_codes(task, codes[:20])
-    run = run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=seed)
+    run = run_plan(task, plan, climbing_flaws(task, ()), noise=Noise.of("usual"), seed=seed)
     assert run.done, run.reason
     assert run.report.findings == []
 

@@ -7,7 +7,7 @@ import pytest
 
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course, swings
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.planning_margins import HANGING, STEADY, steady, with_margins
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.trials.trial import TrialSetup, climb_once
@@ -75,7 +75,7 @@ def test_a_limb_that_is_lifted_off_neither_looks_like_a_weak_motor_nor_strikes_i
     task: LimbedTask, plan: Plan, seed: int
 ) -> None:
     """At step 115, 8 of 300 climbs were missed: the nearly straight limb that came off, or a swing that its blows drove on."""
-    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    setup = TrialSetup(task=task, noise=Noise.of("usual"), plan=plan, replan=False)
     trial = climb_once(setup, seed)[1]
     assert trial.done, trial.reason
 
@@ -86,7 +86,7 @@ def test_tips_that_wandered_before_a_joint_stood_still_do_not_make_its_sensor_a_
     task: LimbedTask, plan: Plan, seed: int
 ) -> None:
     """Nor does a joint that stood still once, 15 s and 34 s before, and has turned since."""
-    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    setup = TrialSetup(task=task, noise=Noise.of("usual"), plan=plan, replan=False)
     trial = climb_once(setup, seed)[1]
     assert trial.done, trial.reason
 
@@ -95,7 +95,7 @@ def test_tips_that_wandered_before_a_joint_stood_still_do_not_make_its_sensor_a_
 @pytest.mark.parametrize("seed", [1_000_002_007, 1_000_002_242])
 def test_a_robot_that_friction_or_a_straight_limb_bears_has_not_fallen(task: LimbedTask, plan: Plan, seed: int) -> None:
     """As a hook is drawn off, at steps 54 and 103: the bottom limb stands almost straight on its hold, and its joints do not turn."""
-    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    setup = TrialSetup(task=task, noise=Noise.of("usual"), plan=plan, replan=False)
     trial = climb_once(setup, seed)[1]
     assert trial.done, trial.reason
 
@@ -117,5 +117,5 @@ def test_the_saved_plan_is_climbed_whole(task: LimbedTask, plan: Plan) -> None:
 @pytest.mark.parametrize("seed", [14, 22, 57])
 def test_hangs_on_the_single_row_calm_down_under_the_usual_noise(task: LimbedTask, plan: Plan, seed: int) -> None:
     """Where joints cross their play as a hang begins; and where a free limb that is sped up throws the body about within it."""
-    setup = TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    setup = TrialSetup(task=task, noise=Noise.of("usual"), plan=plan, replan=False)
     assert climb_once(setup, seed)[1].done

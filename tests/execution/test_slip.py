@@ -16,7 +16,7 @@ from clamber.families.climber.execution.climbing import Climbing
 from clamber.families.climber.execution.executable_plan import lay_course
 from clamber.families.climber.execution.slip import MOVED
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.trials.noise import draw_for, named_noise
+from clamber.families.climber.trials.noise import Noise, draw_for
 from clamber.families.climber.trials.plants import drawn_plant
 from clamber.families.climber.trials.run_plan import believing_climber, climbing_flaws
 from clamber.types import Floats
@@ -50,10 +50,10 @@ class Knocked:
 
     def __post_init__(self) -> None:
         task, plan = two_rungs()
-        drawn = draw_for(task, named_noise("usual"), self.seed)
+        drawn = draw_for(task, Noise.of("usual"), self.seed)
         self.plant: ClimberPlant = drawn_plant(task, climbing_flaws(task, ()), drawn)
         self.pegs: Floats = task.world.positions() + drawn.pegs
-        self.climber = believing_climber(task, self.plant, named_noise("usual"), drawn)
+        self.climber = believing_climber(task, self.plant, Noise.of("usual"), drawn)
         self.sequencer = Sequencer(Climbing(self.climber, lay_course(task, plan)))
         self._tick, self.climber.tick = self.climber.tick, self.tick  # type: ignore[method-assign]
         model = self.plant.model

@@ -9,7 +9,7 @@ import pytest
 from clamber.families.climber.execution.executable_plan import ExecutablePlan, lay_course
 from clamber.families.climber.execution.swing_feasibility import grabs_without_way
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.planning_margins import PLANNING_MARGINS, with_margins
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.planning.planners import find_planner
@@ -70,7 +70,7 @@ def test_what_has_no_way_on_paper_is_missed_in_climbs() -> None:
     plan = Plan.of_codes(task, found.plan.codes(task))
     blocked = grabs_without_way(lay_course(task, plan), ERROR)
     assert len(blocked) == 1
-    flaws, noise = climbing_flaws(task, ()), named_noise("usual")
+    flaws, noise = climbing_flaws(task, ()), Noise.of("usual")
     reports = [run_plan(task, plan, flaws, noise=noise, seed=seed).report for seed in range(5001, 5007)]
     missed = [report.actions[-1].first for report in reports if "finds no way" in report.reason]
     assert missed and set(missed) == set(blocked)

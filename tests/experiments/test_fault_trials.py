@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from clamber.benchmarks.climb_speed import two_rungs
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.trial import TrialSetup, error_trial, run_trial, trial_of
 from clamber.trials.fault_trials import ENDINGS, fault_rows
 from clamber.types import Json
@@ -15,7 +15,7 @@ from clamber.types import Json
 
 def setup() -> TrialSetup:
     task, plan = two_rungs()
-    return TrialSetup(task=task, noise=named_noise("usual"), plan=plan, replan=False)
+    return TrialSetup(task=task, noise=Noise.of("usual"), plan=plan, replan=False)
 
 
 def test_a_trial_with_a_fault_tells_which_when_and_how_it_ended() -> None:

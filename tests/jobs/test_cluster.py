@@ -22,7 +22,7 @@ import clamber
 from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.trial import TrialSetup
 from clamber.jobs import ClusterError, LocalProcesses, Outcome, RayCluster, cluster, map_items
 from clamber.planning.axes import range_axis
@@ -156,7 +156,7 @@ def test_climbs_are_the_same_on_a_cluster(nodes: tuple[RayCluster, Callable[[], 
     assert isinstance(task, LimbedTask)
     strict = climbable(task)
     plan = Plan.of_codes(strict, [thesis_code(strict, number) for number in (300, 3)])
-    setup = TrialSetup(task=strict, plan=plan, noise=named_noise("usual"))
+    setup = TrialSetup(task=strict, plan=plan, noise=Noise.of("usual"))
     here = run_trials(setup, range(6), executor=LocalProcesses(2))
     told = run_trials(setup, range(6), executor=there, store=tmp_path / "store.db")
     assert len(told.ended) == 6

@@ -9,7 +9,7 @@ import pytest
 from clamber.families.climber.execution.postures import postures
 from clamber.families.climber.robot.robot import LimbedRobot
 from clamber.families.climber.sim.climber_plant import ClimberPlant
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from clamber.families.climber.world.board import Board, Hold
 from clamber.planning.problem.plan import Plan
@@ -110,7 +110,7 @@ def test_a_climb_on_a_hold_that_is_too_weak_ends_with_its_cause() -> None:
     grabbed = next(action.hold for action in plan.actions if action.hold is not None)
     holds = tuple(replace(hold, strength=1.0) if hold.number == grabbed else hold for hold in task.world.holds)
     weak = replace(task, world=replace(task.world, holds=holds))
-    run = run_plan(weak, plan, climbing_flaws(weak, ()), noise=named_noise("none"), force=True)
+    run = run_plan(weak, plan, climbing_flaws(weak, ()), noise=Noise.of("none"), force=True)
     assert not run.done
     assert run.report.broken
     assert run.report.broken[0].hold == grabbed
@@ -132,5 +132,5 @@ def test_a_hold_gives_way_to_a_hook_that_pulls_outside_its_direction(direction: 
     holds = tuple(replace(hold, **limits) if hold.number == grabbed else hold for hold in task.world.holds)
     odd = replace(task, world=replace(task.world, holds=holds))
     few = Plan.of_codes(odd, plan.codes(odd, "plan")[:3])
-    run = run_plan(odd, few, climbing_flaws(odd, ()), noise=named_noise("none"), force=True)
+    run = run_plan(odd, few, climbing_flaws(odd, ()), noise=Noise.of("none"), force=True)
     assert [(told.hold, "from its direction" in told.why) for told in run.report.broken] == [(grabbed, True)] * breaks

@@ -13,7 +13,7 @@ from clamber.execution.fault import ANY, FAULTS, Fault, draw_fault
 from clamber.execution.run_report import FaultError
 from clamber.families.spatial.control.believed_tree import believed_tree, joint_inertias, joint_limits
 from clamber.families.spatial.control.laws import USUAL, body_law
-from clamber.families.spatial.execution.faulty_spatial import BEGINS, FaultySpatial, failing_of, fault_kinds
+from clamber.families.spatial.execution.faulty_spatial import FaultySpatial, failing_of, fault_kinds
 from clamber.families.spatial.execution.plant import SpatialSensed
 from clamber.families.spatial.execution.sensor_watch import SensorWatch
 from clamber.families.spatial.execution.sensors import sensor_names
@@ -21,7 +21,7 @@ from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.robot.contacts import MOST_ROWS
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws
 from clamber.families.spatial.trials.law_trials import first_steps
-from clamber.families.spatial.trials.noise import named_spatial_noise
+from clamber.families.spatial.trials.noise import SpatialNoise
 from clamber.families.spatial.trials.run_plan import SpatialRun, run_plan
 from clamber.families.spatial.trials.trials import judged
 from clamber.tasks.library import load_task
@@ -43,7 +43,7 @@ def climbed(fault: Fault | None, name: str = NAME, seed: int = 1) -> SpatialRun:
     """The first steps of a plan, under the usual noise."""
     task = load_task(name)
     assert isinstance(task, SpatialTask)
-    noise = named_spatial_noise("usual")
+    noise = SpatialNoise.of("usual")
     true = replace(noise.deviations(task.robot, task.world, seed), fault=fault)
     return run_plan(task, first_steps(task), flaws=noise.flaws(SpatialFlaws(), seed), deviations=true)
 
@@ -59,7 +59,7 @@ def told(sensed: SpatialSensed) -> list[Floats]:
 
 def stand(fault: Fault | None, seconds: float) -> list[list[Floats]]:
     """What a robot that stands is told by its plant, tick by tick; its joints are held by stiff springs."""
-    noise = named_spatial_noise("usual")
+    noise = SpatialNoise.of("usual")
     at = Standing(NAME, noise.flaws(SpatialFlaws(), 3))
     plant: Any = at.plant
     if fault is not None:
@@ -103,7 +103,7 @@ def test_failing_sensors_have_the_ranges_of_their_robot_and_holds_are_those_of_l
     assert all(0.0 < span < math.inf for span in failing.sensors.values())
     assert len(failing.motors) == int(task.robot.chains.n_joints.sum())
     assert set(failing.kinds) == set(FAULTS) == set(fault_kinds(task.robot))
-    drawn = [draw_fault([ANY], seed, failing, BEGINS) for seed in range(200)]
+    drawn = [draw_fault([ANY], seed, failing) for seed in range(200)]
     assert {fault.kind for fault in drawn} == set(FAULTS)
     feet = load_task("stones-quadruped")
     assert isinstance(feet, SpatialTask)
@@ -219,7 +219,7 @@ def test_an_encoder_that_fails_now_and_then_is_bridged_and_the_run_ends_as_witho
     run = climbed(fault_of(kind, size, "LF_2"))
     assert run.done, run.reason
     assert {(found.kind, found.where) for found in run.report.findings} == {(seen, "LF_2")}
-    trial = judged(1, run, named_spatial_noise("none"))
+    trial = judged(1, run, SpatialNoise.of("none"))
     assert trial.fault is not None and (trial.fault["ending"], trial.fault["noticed_as"]) == ("recovered", seen)
     assert trial.fault["early"] == []
 

@@ -16,7 +16,7 @@ from clamber.families.spatial.planning.task import SpatialTask
 from clamber.families.spatial.sim.spatial_flaws import SpatialFlaws, read_spatial_flaws
 from clamber.families.spatial.sim.spatial_plant import SpatialSim
 from clamber.families.spatial.trials.law_trials import first_steps
-from clamber.families.spatial.trials.noise import SPATIAL_NOISE, drawn, named_spatial_noise, read_spatial_noise
+from clamber.families.spatial.trials.noise import SPATIAL_NOISE, SpatialNoise, drawn
 from clamber.families.spatial.trials.trials import SpatialSetup, SpatialTrial, SpatialTrials
 from clamber.sim.plant_rules import PlantError
 from clamber.tasks.library import load_task
@@ -31,7 +31,7 @@ def task() -> SpatialTask:
 
 
 def test_what_is_drawn_stays_within_its_widths_and_is_the_same_again(task: SpatialTask) -> None:
-    noise = read_spatial_noise(named_spatial_noise("usual"), ["push=10 %", "payload=20 %"])
+    noise = SpatialNoise.of("usual", ["push=10 %", "payload=20 %"])
     made, again = (noise.deviations(task.robot, task.world, 7) for _ in range(2))
     off = np.linalg.norm(made.places - task.world.places, axis=1)
     assert off.mean() > 3e-3 and off.max() <= 5e-3
@@ -48,18 +48,18 @@ def test_what_is_drawn_stays_within_its_widths_and_is_the_same_again(task: Spati
 
 
 def test_one_width_changes_nothing_else(task: SpatialTask) -> None:
-    usual = named_spatial_noise("usual").deviations(task.robot, task.world, 7)
-    wider = read_spatial_noise(named_spatial_noise("usual"), ["friction=30%"]).deviations(task.robot, task.world, 7)
+    usual = SpatialNoise.of("usual").deviations(task.robot, task.world, 7)
+    wider = SpatialNoise.of("usual", ["friction=30%"]).deviations(task.robot, task.world, 7)
     assert np.array_equal(usual.places, wider.places) and np.array_equal(usual.masses, wider.masses)
     assert wider.frictions - 1.0 == pytest.approx(1.5 * (usual.frictions - 1.0))
 
 
 def test_settings_of_the_plant_outdo_the_noise() -> None:
     plant = read_spatial_flaws(["backlash=1 deg", "physics_rate=2 kHz"], seed=5)
-    made = named_spatial_noise("usual").flaws(plant, 5)
+    made = SpatialNoise.of("usual").flaws(plant, 5)
     assert made.backlash == pytest.approx(math.radians(1.0)) and made.physics_rate == 2000.0
     assert made.delay == 5e-3 and made.late == 2 and made.seed == 5
-    assert named_spatial_noise("none").flaws(SpatialFlaws(), 5) == SpatialFlaws()
+    assert SpatialNoise.of("none").flaws(SpatialFlaws(), 5) == SpatialFlaws()
 
 
 @pytest.mark.parametrize(
@@ -72,15 +72,15 @@ def test_a_setting_that_cannot_be_is_refused_by_name(text: str) -> None:
 
 def test_a_width_that_cannot_be_is_refused_by_name() -> None:
     with pytest.raises(NoiseError, match="hold_place"):
-        read_spatial_noise(named_spatial_noise("usual"), ["hold_place=3 deg"])
+        SpatialNoise.of("usual", ["hold_place=3 deg"])
     with pytest.raises(NoiseError, match="no such key"):
-        read_spatial_noise(named_spatial_noise("usual"), ["pegs=3 mm"])
+        SpatialNoise.of("usual", ["pegs=3 mm"])
     assert all(kind.shown(kind.width) for kind in SPATIAL_NOISE.values())
 
 
 def test_trials_are_told_from_others_and_a_failed_one_counts(task: SpatialTask) -> None:
-    setup = SpatialSetup(task=task, noise=named_spatial_noise("usual"))
-    assert setup.about() != SpatialSetup(task=task, noise=named_spatial_noise("none")).about()
+    setup = SpatialSetup(task=task, noise=SpatialNoise.of("usual"))
+    assert setup.about() != SpatialSetup(task=task, noise=SpatialNoise.of("none")).about()
     trials = setup.begun(2)
     trials.ended = [setup.failed(1, "ValueError: x"), setup.failed(2, "ValueError: x")]
     assert trials.done == 0 and trials.interval[0] == 0.0
@@ -119,7 +119,7 @@ def ended(seed: int, reason: str, drawn: dict[str, float] | None = None) -> Spat
 
 
 def test_one_number_tells_what_a_seed_drew_for_the_holds_of_a_plan(task: SpatialTask) -> None:
-    noise = read_spatial_noise(named_spatial_noise("usual"), ["payload=20 %", "push=10 %"])
+    noise = SpatialNoise.of("usual", ["payload=20 %", "push=10 %"])
     plan = first_steps(task)
     told = drawn(noise, task, plan, 7)
     made, holds = noise.deviations(task.robot, task.world, 7), sorted({hold for _, hold in grabs(task, plan)})
@@ -133,11 +133,11 @@ def test_one_number_tells_what_a_seed_drew_for_the_holds_of_a_plan(task: Spatial
     assert told["payload"] == pytest.approx(made.payload / task.robot.chains.total_mass)
     assert 0.0 < told["push"] <= 0.1
     assert drawn(noise, task, plan, 7) == told and drawn(noise, task, plan, 8) != told
-    assert set(drawn(named_spatial_noise("none"), task, plan, 7).values()) == {0.0}
+    assert set(drawn(SpatialNoise.of("none"), task, plan, 7).values()) == {0.0}
 
 
 def test_the_mass_and_the_biases_that_are_told_are_those_of_the_simulation(task: SpatialTask) -> None:
-    noise = named_spatial_noise("usual")
+    noise = SpatialNoise.of("usual")
     told = drawn(noise, task, first_steps(task), 3)
     quiet = replace(noise.flaws(SpatialFlaws(), 3), gyro_noise=0.0, accelerometer_noise=0.0, delay=0.0)
     course = Course.of(task, first_steps(task)).start
@@ -163,7 +163,7 @@ def drew(seed: int) -> dict[str, float]:
 
 
 def test_the_deviation_that_decides_is_named_and_no_other(task: SpatialTask) -> None:
-    setup = SpatialSetup(task=task, noise=named_spatial_noise("usual"))
+    setup = SpatialSetup(task=task, noise=SpatialNoise.of("usual"))
     runs = [ended(seed, "fell: off" if drew(seed)["strength"] < -0.12 else "", drew(seed)) for seed in range(80)]
     trials = SpatialTrials(setup, 80, [*runs, setup.failed(80, "boom")])
     verdicts = {effect.key: effect.verdict for effect in trials.effects()}
@@ -176,7 +176,7 @@ def test_the_deviation_that_decides_is_named_and_no_other(task: SpatialTask) -> 
 
 
 def test_where_all_runs_are_done_no_effect_is_told(task: SpatialTask) -> None:
-    setup = SpatialSetup(task=task, noise=named_spatial_noise("usual"))
+    setup = SpatialSetup(task=task, noise=SpatialNoise.of("usual"))
     trials = SpatialTrials(setup, 20, [ended(seed, "", drew(seed)) for seed in range(20)])
     assert {effect.verdict for effect in trials.effects()} == {"too few"}
     text = printed(trials)

@@ -9,7 +9,7 @@ from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.pictures.climb_run import OUTCOMES, ClimbFilm, ClimbPicture
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import NO_NOISE, Noise, read_noise
+from clamber.families.climber.trials.noise import NO_NOISE, Noise
 from clamber.families.climber.trials.run_plan import ClimbRun, climbing_flaws, run_plan
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
@@ -27,7 +27,7 @@ def climbed(noise: Noise) -> ClimbRun:
 
 
 def test_true_pegs_are_crosses_where_they_are(tmp_path: Path) -> None:
-    run = climbed(read_noise(NO_NOISE, ["peg_error=5mm"]))
+    run = climbed(Noise.of("none", ["peg_error=5mm"]))
     places = run.task.world.positions()
     pegs = places + run.drawn.pegs
     picture = ClimbPicture(ClimbFilm(run.task, run.trace, run.report.actions, pegs))

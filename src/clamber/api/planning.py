@@ -176,7 +176,7 @@ def answer(
 
     Args:
         task: What was planned.
-        codes: Packed actions as `Problem.replay` takes them, shape (n,): the plan, or what leads furthest.
+        codes: Packed actions as `CompiledProblem.replay` takes them, shape (n,): the plan, or what leads furthest.
         planner: Its name.
         seed: Of what it drew at random.
         reason: Why it ended, in a sentence.

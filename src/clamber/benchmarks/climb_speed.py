@@ -18,7 +18,7 @@ from ..families.climber.execution.executable_plan import lay_course
 from ..families.climber.planning.plans import thesis_code
 from ..families.climber.planning.task import LimbedTask
 from ..families.climber.sim.climber_plant import ClimberPlant
-from ..families.climber.trials.noise import NO_NOISE, read_noise
+from ..families.climber.trials.noise import Noise
 from ..families.climber.trials.run_plan import climbing_flaws, climbing_task, run_plan
 from ..families.climber.trials.warm_up import warm_up
 from ..jobs import LocalProcesses
@@ -98,7 +98,7 @@ def timed_trial(item: Json) -> Json:
         item: `seed`.
     """
     ready, (task, plan) = _ready(), two_rungs()
-    flaws, noise = climbing_flaws(task, ()), read_noise(NO_NOISE, [NOISE])
+    flaws, noise = climbing_flaws(task, ()), Noise.of("none", [NOISE])
     return timed(ready, partial(run_plan, task, plan, flaws, noise=noise, seed=item["seed"]))
 
 

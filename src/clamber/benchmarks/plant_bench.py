@@ -22,7 +22,7 @@ from ..families.climber.execution.wiring import guard_of, wiring_of
 from ..families.climber.planning.plans import thesis_code
 from ..families.climber.planning.task import LimbedTask
 from ..families.climber.sim.climber_plant import ClimberPlant
-from ..families.climber.trials.noise import NO_NOISE, draw_for, read_noise
+from ..families.climber.trials.noise import Noise, draw_for
 from ..families.climber.trials.plants import drawn_plant
 from ..families.climber.trials.run_plan import believing_climber, climbing_flaws, climbing_task, run_plan
 from ..planning.problem.plan import Plan
@@ -160,7 +160,7 @@ class StoppingHardware(PlantLayer[Hardware, Floats]):
 def stopped_at(task: LimbedTask, flaws: LimbFlaws, tick: int, seed: int) -> StoppingHardware:
     """A robot that has climbed by the gait until a tick, where it was stopped, on pegs that a seed puts beside the map."""
     wiring = wiring_of(task.robot, flaws.encoder_counts)
-    noise = read_noise(NO_NOISE, [NOISE])
+    noise = Noise.of("none", [NOISE])
     drawn = draw_for(task, noise, seed)
     plant = drawn_plant(task, flaws, drawn)
     hardware = ClimberWires(plant, wiring)
@@ -178,7 +178,7 @@ def _wait_through(task: LimbedTask, timed: TimedHardware, seconds: float) -> Non
 
 def _climb_in_real_time(task: LimbedTask, flaws: LimbFlaws, seed: int) -> bool:
     with served(TASK, *REAL_TIME, "--noise", NOISE, "--seed", str(seed)) as (_, address):
-        noise = read_noise(NO_NOISE, [NOISE])
+        noise = Noise.of("none", [NOISE])
         return run_plan(task, gait_of(task), flaws, plant=address, noise=noise, seed=seed).report.done
 
 

@@ -15,14 +15,14 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from ..families.climber.planning.problem import FEATURE_NAMES, LimbedProblem
+from ..families.climber.planning.problem import LimbedProblem
 from ..families.climber.planning.task import LimbedTask
 from ..planning.genetic.evolve import Genes, first_generation, next_generation, weights_for
 from ..planning.genetic.profile import load_profile
 from ..planning.problem.arrays import ActionTable
 from ..planning.problem.codes import Code
 from ..planning.problem.plan_source import open_plan, plan_names
-from ..planning.problem.problem import CompiledProblem, Records
+from ..planning.problem.problem import FEATURE_NAMES, CompiledProblem, Records
 from ..planning.problem.problems import pose_problem
 from ..tasks import load_task
 from ..trials.measured import NOTHING, Row, Say, keep_quiet

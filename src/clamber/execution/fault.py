@@ -46,6 +46,10 @@ SPIKED: Final = 0.01
 """Part of the readings that are spikes [-]."""
 OLDER: Final = 5
 """A repeated reading is at most so many ticks old."""
+SOON: Final = (1.0, 20.0)
+"""First and last time at which a fault of a trial begins [s]: early, so that what comes of it is soon known."""
+FIRST_HOLDS: Final = 6
+"""A hold that is too weak is one of so many that are held at the start or grabbed first."""
 SILENCE: Final = 0.05
 """A robot that has had no command for so long holds its posture by itself, as the plant server's guard has it do [s]."""
 
@@ -116,7 +120,7 @@ def check_faults(texts: Sequence[str], kinds: Sequence[str]) -> None:
             raise FaultChoiceError(text, kinds)
 
 
-def draw_fault(texts: Sequence[str], seed: int, failing: Failing, begins: tuple[float, float]) -> Fault:
+def draw_fault(texts: Sequence[str], seed: int, failing: Failing, begins: tuple[float, float] = SOON) -> Fault:
     """One fault of those that are asked for.
 
     Args:

@@ -27,6 +27,10 @@ EVERY: Final = 0.04
 Turn = tuple[float, float, float, float]
 """Quaternion x, y, z, w [-]."""
 STILL: Final[Turn] = (0.0, 0.0, 0.0, 1.0)
+HOLD: Final = "#8A8F98"
+BODY: Final = "#9FADBA"
+LIMBS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#6A3D9A", "#7F6A00")
+"""Colours of limbs, in their order."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,6 +67,11 @@ class LoggedScene:
     """Frame -> what lies in it."""
     frames: Callable[[Floats], Sequence[Frame]]
     """Of a sample, in the order of the log's columns."""
+
+
+def ball(radius: float, colour: str, at: Sequence[float] | Floats = (0.0, 0.0, 0.0)) -> Shape:
+    """A sphere about a place in a frame [m], shape (3,)."""
+    return Shape("spheres", at, (2 * radius,) * 3, colour)
 
 
 def rod(start: Floats, end: Floats, radius: float, colour: str) -> Shape:

@@ -1,12 +1,15 @@
 """What an inspection answers."""
 
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, field
 from typing import Annotated, Any, TypeAlias
 
+import numpy as np
+
 from ..json_form import HIDDEN, Jsonable, in_json
 from ..notebook import OneLine
-from ..shown_units import SI, ShownUnits
+from ..shown_units import SI, ShownUnits, Unit
+from ..types import Floats
 
 Kind: TypeAlias = str
 """What a file is: "robot", "task", "plan", or one of the kinds of a family, such as "board"."""
@@ -71,6 +74,24 @@ class FileKind:
     inspect: Callable[[Any, ShownUnits], Finding]
     suffixes: tuple[str, ...] = ()
     """Of files that say no schema."""
+
+
+def span_words(values: Iterable[float], shown: Unit) -> str:
+    """The least and the largest of some values, such as "0.4 to 0.5 m"; one of them where they are alike."""
+    unit, size, _ = shown
+    sizes = [value / size for value in values]
+    low, high = min(sizes), max(sizes)
+    return f"{low:.4g} {unit}" if high - low < 1e-9 else f"{low:.4g} to {high:.4g} {unit}"
+
+
+def nearest(points: Floats) -> Floats:
+    """Distance of each of some points, shape (n, d), from the one nearest to it [m], shape (n,); infinite for a single one."""
+    from scipy.spatial import cKDTree  # takes a tenth of a second to import
+
+    if len(points) < 2:
+        return np.full(len(points), np.inf)
+    away: Floats = cKDTree(points).query(points, k=2)[0][:, 1]
+    return away
 
 
 def _nothing(task: Any, hard: Set[str]) -> Iterator[str]:

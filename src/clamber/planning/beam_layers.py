@@ -1,4 +1,4 @@
-"""Beam search over a `Problem`: layers of plans of equal length, the best of each layer kept, hashed and niched."""
+"""Beam search over a `CompiledProblem`: layers of plans of equal length, the best of each layer kept, hashed and niched."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,6 +8,7 @@ import numpy.typing as npt
 
 from ..interrupts import Interruptible
 from .beam_kernels import choose
+from .problem.arrays import with_room
 from .problem.problem import Beam, CompiledProblem, Records
 from .progress import Clock
 from .stance_table import rehash, table_size
@@ -60,10 +61,7 @@ class _Kept:
             return
         capacity = 2 * (self.n + more)
         for name in ("keys", "parent", "code"):
-            old = getattr(self, name)
-            new = np.zeros((capacity, *old.shape[1:]), old.dtype)
-            new[: self.n] = old[: self.n]
-            setattr(self, name, new)
+            setattr(self, name, with_room(getattr(self, name), capacity))
         self.table = np.full(table_size(capacity), -1, np.int32)
         rehash(self.keys, self.n, self.table)
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ..errors import PlannerError
 from ..interrupts import Interruptible
 from ..tasks import Task
-from .problem.arrays import CostToGoMap
+from .problem.arrays import CostToGoMap, with_room
 from .problem.plan import Plan
 from .problem.problem import CompiledProblem
 from .problem.problems import listed_problem, plan_family
@@ -83,11 +83,8 @@ class _Memory:
         return len(self.all.keys)
 
     def grow(self, capacity: int, used: int) -> None:
-        longer = {}
-        for name in ("keys", "g", "way", "parent", "code", "following"):
-            old = getattr(self.all, name)
-            longer[name] = np.zeros((capacity, *old.shape[1:]), old.dtype)
-            longer[name][: len(old)] = old
+        names = ("keys", "g", "way", "parent", "code", "following")
+        longer = {name: with_room(getattr(self.all, name), capacity) for name in names}
         self.all = self.all._replace(table=np.full(table_size(capacity), -1, np.int32), **longer)
         rehash(self.all.keys, used, self.all.table, ROUGH)
 

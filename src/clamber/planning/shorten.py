@@ -113,15 +113,9 @@ def shorten_by_windows(
     """Make a plan shorter: windows of growing length slide over it until none saves an action.
 
     Args:
-        problem: The task.
-        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        problem, codes, seconds, tell: As in `shorten`.
         most: Most stances of one window.
         effort: Most stances of all windows together; the last window may go beyond it.
-        seconds: Most time [s].
-        tell: Called with the length of the plan after each window.
-
-    Returns:
-        A plan that holds, reaches the goal, and is never longer.
     """
     clock = Clock(seconds)
     search = WindowSearch(problem, most)
@@ -177,15 +171,9 @@ def shorten_in_corridor(
     stances that no shorter plan can visit.
 
     Args:
-        problem: The task.
-        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        problem, codes, seconds, tell: As in `shorten`.
         most: Most stances of one corridor: memory, about 100 bytes and a key each.
         effort: Most stances of all corridors together; the last corridor may go beyond it.
-        seconds: Most time [s].
-        tell: Called with the length of the plan after each corridor.
-
-    Returns:
-        A plan that holds, reaches the goal, and is never longer; `complete` if no plan of the task is shorter.
     """
     clock = Clock(seconds)
     size, seen, checks, complete = min(FIRST_CORRIDOR, most), 0, 0, False
@@ -241,14 +229,9 @@ def shorten_by_beam(
     """Search for a shorter plan whose body stays near that of a given one.
 
     Args:
-        problem: The task.
-        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        problem, codes, seconds: As in `shorten`.
         width: Stances kept of each layer.
         steps: How far the body may go from the plan's places, in body steps of the plan.
-        seconds: Most time [s].
-
-    Returns:
-        A plan that holds, reaches the goal, and is never longer.
     """
     stances = problem.replay(codes).stances
     places = np.stack([stances["x"], stances["y"]], axis=1)
@@ -287,8 +270,8 @@ def shorten(
     """Make a plan shorter; it stays valid, and ends in a goal stance.
 
     Args:
-        problem: The task. One whose actions can't be listed (`Problem.incomplete`) leaves the plan as it is.
-        codes: A plan that holds and reaches the goal; every hold named (`Problem.resolve`).
+        problem: The task. One whose actions can't be listed (`CompiledProblem.incomplete`) leaves the plan as it is.
+        codes: A plan that holds and reaches the goal; every hold named (`CompiledProblem.resolve`).
         width: Width of the beam about the plan; 0 for none.
         effort: Most stances of windows and corridors; 0 for none.
         seconds: Most time [s]; a search that it ends is not repeatable.

@@ -5,8 +5,11 @@ from typing import Final
 import numpy as np
 
 from ..control.chain import Chain
+from ..control.records import AXES
+from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .electronics import limit_torques, read_encoders, take_torques
+from .force_sensing import ForceSensing
 from .limb_flaws import LimbFlaws
 from .plant_rules import PlantError
 
@@ -106,3 +109,56 @@ class LimbElectronics:
         """What the motors give at these speeds into `out` and `also`; whether it may be held for `time` [s]. See `limit_torques`."""
         steady: bool = limit_torques(self.wanted, speeds, self.limits, self.no_load, self._agility, time, out, also)
         return steady
+
+
+class SimulatedLimb:
+    """Base of simulated limbs: all of a `LimbPlant` but what moves them.
+
+    Args:
+        chain: The limb as it is.
+        flaws: What is not ideal about it.
+        gears: Motor turns per joint turn, shape (n,): encoder counts are of the motor.
+        batch: Number of limbs.
+    """
+
+    def __init__(self, chain: Chain, flaws: LimbFlaws, gears: Floats | None, batch: int) -> None:
+        self.chain, self.flaws, self.batch, self.period = chain, flaws, batch, flaws.period
+        n = chain.n
+        self._electronics = LimbElectronics(chain, flaws, gears, batch)
+        self._initial_conditions = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
+        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
+        self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
+        self._angles, self._speeds = self._truth.states[:, 0], self._truth.states[:, 1]
+        """On the motors' side, as they move, shape (batch, n) each."""
+        self._forces: ForceSensing | None = None
+        self.tick = 0
+
+    def _restart(self) -> None:
+        """What every reset does, before the limb is looked at."""
+        if self._initial_conditions is not None:
+            self._initial_conditions.restart()
+        self._truth.torques[:] = 0.0
+        self._truth.wrenches[:] = 0.0
+        self._electronics.reset()
+        self.tick = 0
+
+    def sense(self) -> Sensed:
+        """See `Plant`."""
+        initial_conditions = self._initial_conditions
+        self._electronics.read(
+            self._angles if initial_conditions is None else self._angles + initial_conditions.phase, self._speeds
+        )
+        if initial_conditions is not None:
+            initial_conditions.disturb(self._sensed.states)
+        self._sensed.number[0] = self.tick
+        if self._forces is not None:
+            self._forces.sense(self.tick)
+        return self._sensed
+
+    def actuate(self, torques: Floats) -> None:
+        """See `LimbPlant`."""
+        self._electronics.ask(torques)
+
+    def truth(self) -> Truth:
+        """See `Plant`."""
+        return self._truth

@@ -6,24 +6,19 @@ import numpy as np
 
 from ..control.chain import Chain
 from ..control.kinematics import FRAME
-from ..control.records import AXES
-from ..execution.plant import Sensed, Truth
 from ..types import Floats
 from .force_sensing import ForceSensing, has_hand
-from .limb_electronics import Chances, LimbElectronics
+from .limb_electronics import SimulatedLimb
 from .limb_flaws import LimbFlaws
 from .limb_kernels import look_behind_gears, push_tips
 from .limb_model import limb_spec
 
 
-class MujocoLimb:
-    """A batch of equal limbs in MuJoCo, with the sensors and motors of `flaws`. A `Plant`.
+class MujocoLimb(SimulatedLimb):
+    """A batch of equal limbs in MuJoCo, with the sensors and motors of `flaws`. A `LimbPlant`.
 
     Args:
-        chain: The limb as it is.
-        flaws: What is not ideal about it.
-        gears: Motor turns per joint turn, shape (n,): encoder counts are of the motor.
-        batch: Number of limbs.
+        chain, flaws, gears, batch: As of any `SimulatedLimb`.
         threads: Of the physics of a batch; 0: all cores.
     """
 
@@ -32,8 +27,7 @@ class MujocoLimb:
     ) -> None:
         import mujoco
 
-        self.chain, self.flaws, self.batch = chain, flaws, batch
-        self.period = flaws.period
+        super().__init__(chain, flaws, gears, batch)
         self._step_time = 1.0 / flaws.physics_rate
         self.model: Any = limb_spec(chain, flaws).compile()
         self._step = mujoco.mj_step
@@ -57,11 +51,7 @@ class MujocoLimb:
         self._motors = slice(0, stride * n, stride)
         self._stride = stride
         self._angles, self._speeds = self._qpos[:, self._motors], self._qvel[:, self._motors]
-        self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._initial_conditions = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
-        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
-        self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
-        self._forces = ForceSensing(chain, flaws, readings, self._sensed, self._truth)
+        self._felt = self._forces = ForceSensing(chain, flaws, readings, self._sensed, self._truth)
         self._hand = pushed[:, self.model.body("hand").id] if has_hand(flaws) else None
         self._given = np.zeros((batch, n))
         # The centre of mass is that of what really moves, payload included
@@ -70,7 +60,6 @@ class MujocoLimb:
         self._pushed_rows = pushed[:, last]
         self._push_arrays = (np.zeros((n, FRAME)), np.zeros(12), self._pushed_rows, self._truth.wrenches)
         self._push_chain = (carried, chain.root, self._truth.states)
-        self.tick = 0
 
     def reset(self, q: Floats) -> None:
         """See `Plant`."""
@@ -82,32 +71,11 @@ class MujocoLimb:
             self._pool.reset()
         self._qpos[:, self._motors] = q
         self._qvel[:] = 0.0
-        if self._initial_conditions is not None:
-            self._initial_conditions.restart()
-            if self._stride == 2:
-                self._qpos[:, 1 : 2 * self.chain.n : 2] = self._initial_conditions.play
-        self._truth.torques[:] = 0.0
-        self._truth.wrenches[:] = 0.0
-        self._electronics.reset()
-        self._forces.reset()
-        self.tick = 0
+        self._restart()
+        if self._initial_conditions is not None and self._stride == 2:
+            self._qpos[:, 1 : 2 * self.chain.n : 2] = self._initial_conditions.play
+        self._felt.reset()
         self._look()
-
-    def sense(self) -> Sensed:
-        """See `Plant`."""
-        initial_conditions = self._initial_conditions
-        self._electronics.read(
-            self._angles if initial_conditions is None else self._angles + initial_conditions.phase, self._speeds
-        )
-        if initial_conditions is not None:
-            initial_conditions.disturb(self._sensed.states)
-        self._sensed.number[0] = self.tick
-        self._forces.sense(self.tick)
-        return self._sensed
-
-    def actuate(self, torques: Floats) -> None:
-        """See `Plant`."""
-        self._electronics.ask(torques)
 
     def step(self) -> None:
         """See `Plant`. Where a motor's torque depends on its speed, it follows that at every physics step."""
@@ -129,11 +97,7 @@ class MujocoLimb:
             given = self._given
         self.tick += 1
         self._look()
-        self._forces.look()
-
-    def truth(self) -> Truth:
-        """See `Plant`."""
-        return self._truth
+        self._felt.look()
 
     def _advance(self, steps: int) -> None:
         if self._pool is None:

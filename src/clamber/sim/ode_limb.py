@@ -5,24 +5,21 @@ import numpy as np
 from ..control.chain import Chain
 from ..control.kinematics import FRAME
 from ..control.records import AXES
-from ..execution.plant import Sensed, Truth
 from ..types import Floats
-from .limb_electronics import Chances, LimbElectronics
+from .limb_electronics import SimulatedLimb
 from .limb_flaws import LimbFlaws
 from .ode_steps import step_limbs
 from .plant_rules import PlantError
 
 
-class OdeLimb:
-    """A batch of equal limbs by the ODE of `ode_steps`, with the sensors and motors of `flaws`. A `Plant`.
+class OdeLimb(SimulatedLimb):
+    """A batch of equal limbs by the ODE of `ode_steps`, with the sensors and motors of `flaws`. A `LimbPlant`.
 
     It knows the joints' reflected inertia, viscous and Coulomb friction and a push on the tip, and shares the electronics of every plant.
 
     Args:
         chain: The limb as it is; masses and inertias of its links do not count.
-        flaws: What is not ideal about it.
-        gears: Motor turns per joint turn, shape (n,): encoder counts are of the motor.
-        batch: Number of limbs.
+        flaws, gears, batch: As of any `SimulatedLimb`.
         threads: Not used: a batch is one loop in one kernel.
 
     Raises:
@@ -33,45 +30,19 @@ class OdeLimb:
         self, chain: Chain, flaws: LimbFlaws, *, gears: Floats | None = None, batch: int = 1, threads: int = 0
     ) -> None:
         _refuse(chain, flaws)
-        self.chain, self.flaws, self.batch = chain, flaws, batch
-        self.period = flaws.period
+        super().__init__(chain, flaws, gears, batch)
         n = chain.n
         self._joints = chain.joints.copy()
         self._joints["damping"] *= flaws.damping
         self._joints["friction"] *= flaws.friction
-        self._electronics = LimbElectronics(chain, flaws, gears, batch)
-        self._initial_conditions = None if flaws.seed is None else Chances(flaws, batch, n, self._electronics.counts)
         self._force = np.zeros(2)
         self._scratch = (np.zeros((n, FRAME)), np.zeros((AXES, n)), np.zeros((4, max(n, 12))))
-        self._sensed = Sensed(self._electronics.states, np.zeros((batch, AXES)), np.zeros((batch, AXES)))
-        self._truth = Truth(np.zeros((batch, 2, n)), np.zeros((batch, n)), np.zeros((batch, AXES)))
-        self.tick = 0
 
     def reset(self, q: Floats) -> None:
         """See `Plant`."""
         self._truth.states[:, 0] = q
         self._truth.states[:, 1] = 0.0
-        self._truth.torques[:] = 0.0
-        self._truth.wrenches[:] = 0.0
-        if self._initial_conditions is not None:
-            self._initial_conditions.restart()
-        self._electronics.reset()
-        self.tick = 0
-
-    def sense(self) -> Sensed:
-        """See `Plant`."""
-        states, initial_conditions = self._truth.states, self._initial_conditions
-        self._electronics.read(
-            states[:, 0] if initial_conditions is None else states[:, 0] + initial_conditions.phase, states[:, 1]
-        )
-        if initial_conditions is not None:
-            initial_conditions.disturb(self._sensed.states)
-        self._sensed.number[0] = self.tick
-        return self._sensed
-
-    def actuate(self, torques: Floats) -> None:
-        """See `Plant`."""
-        self._electronics.ask(torques)
+        self._restart()
 
     def step(self) -> None:
         """See `Plant`. The motors' limits follow the speed at every physics step."""
@@ -89,10 +60,6 @@ class OdeLimb:
             self._scratch,
         )
         self.tick += 1
-
-    def truth(self) -> Truth:
-        """See `Plant`."""
-        return self._truth
 
 
 def _refuse(chain: Chain, flaws: LimbFlaws) -> None:

@@ -43,6 +43,15 @@ class GoalBox:
             high if self.y_max is None else self.y_max,
         )
 
+    def middle(self, start: tuple[float, float]) -> tuple[float, float]:
+        """The place that stands for it when ways from a start add up: nearest in open directions, the middle of closed ones [m]."""
+        x_min, x_max, y_min, y_max = self.box
+        place = []
+        for lower, upper, at in ((x_min, x_max, start[0]), (y_min, y_max, start[1])):
+            closed = math.isfinite(lower) and math.isfinite(upper)
+            place.append(0.5 * (lower + upper) if closed else min(max(at, lower), upper))
+        return place[0], place[1]
+
     def around_point(self, step: float) -> Self:
         """The goal with its point, if it has one, as a box of half a `step` [m] each way, cut with the box that it states besides."""
         if self.at is None:

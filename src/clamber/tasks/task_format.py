@@ -8,9 +8,23 @@ from typing import Any, Final
 
 from ..errors import describe_choices
 from ..files import Document, content_hash
+from ..notebook import Pictured
+from ..specs import spec
 from ..toml_text import toml_text
 from ..types import Json
 from .robots import family_in, read_robot, robot_names
+
+
+@spec
+class ReadTask(Pictured):
+    """A task with everything resolved, SI units; each family adds what it is made of."""
+
+    name: str
+    title: str
+    document: Json = field(default_factory=dict)
+    """Robot, world and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
+    hashes: Mapping[str, str] = field(default_factory=dict)
+    """"robot", the world's key, "task" -> SHA-256 of that part of `document`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -38,6 +38,8 @@ class NoPlanError(PlannerError):
 class Conditions:
     """Under what a task, a plan or a walk is carried out."""
 
+    noise_set: ClassVar[str] = "none"
+    """Widths of the noise that are not named: a set of `noise.SETS`."""
     planner: str = "auto"
     """Of a task without a plan."""
     plan_seconds: float = 600.0
@@ -70,6 +72,7 @@ class RunRequest(Conditions):
 class TrialsRequest(Conditions):
     """How something is carried out many times. Widths of the noise are the usual ones, but for those that are named."""
 
+    noise_set = "usual"
     faults: tuple[str, ...] = ()
     """Kinds of faults, one of which each trial has; none without."""
 
@@ -100,6 +103,18 @@ def search_to_run(
     """Search for a plan to carry out; Ctrl-C ends the command, as planners answer with what they have, which would be carried out."""
     with passed_on():
         return plan_task(task, planner, seed=seed, seconds=asked.plan_seconds, progress=events.search, **options)
+
+
+def plan_to_run(task: Any, asked: Conditions, events: RunEvents, seed: int, what: str) -> Plan:
+    """The plan of such a search; `what` it was to be, in the error's words.
+
+    Raises:
+        NoPlanError: If there is none.
+    """
+    result = search_to_run(task, asked.planner, asked, events, seed)
+    if not result.has_plan:
+        raise NoPlanError(asked.planner, task.name, f"{what}: {result.reason}")
+    return result.plan
 
 
 @runtime_checkable
@@ -137,6 +152,33 @@ class CarriedOut(Protocol):
     @property
     def log_gap(self) -> LogGap | None:
         """What its log lacks; None: nothing, or there is no log."""
+
+
+class TaskRun:
+    """Base of runs of a task that end as their report says; they have no fields here."""
+
+    __slots__ = ()
+    task: Any
+    report: RunReport
+
+    @property
+    def work(self) -> Any:
+        """What was carried out."""
+        return self.task
+
+    @property
+    def done(self) -> bool:
+        """Whether it came to its end."""
+        return self.report.done
+
+    @property
+    def reason(self) -> str:
+        """Why not; empty where it did."""
+        return self.report.reason
+
+    def told(self) -> str:
+        """Of what, and how it ended."""
+        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
 
 class Dynamics(ABC):

@@ -2,15 +2,11 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from pathlib import Path
 from statistics import median
 from typing import Annotated, Final, Literal, Protocol, TypeAlias, get_args
 
-from pydantic import Field
-
 from ..execution.fault import Fault
 from ..execution.run_report import Finding, RunReport
-from ..jobs import read_result
 from ..json_form import INLINE, Count, Jsonable, in_json
 from ..types import Json
 from .trial_runs import wilson_interval
@@ -59,28 +55,6 @@ def told_fault(fault: Fault | None, done: bool, report: RunReport) -> Json | Non
         early=[finding for finding in report.findings if finding.time < fault.start],
         ending=ending_of_run(done, report),
     ).to_json()
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StoredFault:
-    """What is read back of a trial's fault; see `told_fault`."""
-
-    kind: str
-    where: str
-    start: Annotated[float, Field(strict=True)]
-    noticed: Annotated[float | None, Field(strict=True)]
-    at: str
-    ending: str
-
-
-def check_told(fault: Json | None, store: Path | None) -> None:
-    """Make sure that what a store has of a trial's fault can be summed up.
-
-    Raises:
-        SpecError: If a field is missing, or has a value of another type.
-    """
-    if fault is not None:
-        read_result(StoredFault, fault, store)
 
 
 class Tried(Protocol):

@@ -1,10 +1,13 @@
-"""Widths of model errors by name: kinds, and how texts such as "friction=30%" change them."""
+"""Widths of model errors by name: kinds, how texts such as "friction=30%" change them, and what a seed draws of each."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Final
+from typing import ClassVar, Final, Self
+
+import numpy as np
 
 from ..errors import StatedError, UnitError, describe_choices
+from ..types import Floats, Json
 from ..units import DEGREE, parse_quantity
 
 SETS: Final = ("usual", "none")
@@ -50,8 +53,14 @@ class NoiseKind:
         return f"{value / self.scale:.4g} {self.unit}"
 
 
+def named_widths(kinds: Mapping[str, NoiseKind], name: str) -> dict[str, float]:
+    """A set of widths: "usual", or "none" of all."""
+    assert name in SETS
+    return {key: kind.width if name == "usual" else 0.0 for key, kind in kinds.items()}
+
+
 def read_widths(kinds: Mapping[str, NoiseKind], widths: Mapping[str, float], texts: Iterable[str]) -> dict[str, float]:
-    """Widths of these kinds changed by texts, as `read_noise` does it.
+    """Widths of these kinds changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of them.
 
     Raises:
         NoiseError: If there is no such key, or its width cannot be.
@@ -60,7 +69,7 @@ def read_widths(kinds: Mapping[str, NoiseKind], widths: Mapping[str, float], tex
     for text in texts:
         key, equals, said = (part.strip() for part in text.partition("="))
         if not equals and key in SETS:
-            changed = {name: kind.width if key == "usual" else 0.0 for name, kind in kinds.items()}
+            changed = named_widths(kinds, key)
             continue
         if key not in kinds:
             raise NoiseError(key, said, f"no such key; there are {describe_choices(key, (*kinds, *SETS))}")
@@ -75,3 +84,44 @@ def read_widths(kinds: Mapping[str, NoiseKind], widths: Mapping[str, float], tex
         if kinds[key].below_one and not changed[key] < 1.0:
             raise NoiseError(key, said, "must be less than 100 %")
     return changed
+
+
+def stream_of(key: str, seed: int) -> np.random.Generator:
+    """What a seed draws of a key comes from here: whatever becomes of other keys, it stays."""
+    return np.random.default_rng([seed, *key.encode()])
+
+
+@dataclass(frozen=True, slots=True)
+class NoiseWidths:
+    """A width for every kind of a family's noise, in SI."""
+
+    widths: Mapping[str, float]
+    kinds: ClassVar[Mapping[str, NoiseKind]]
+    """Key -> what deviates."""
+
+    @classmethod
+    def of(cls, name: str, texts: Iterable[str] = ()) -> Self:
+        """A set of widths, "usual" or "none" of all, changed by texts; see `read_widths`."""
+        return cls(read_widths(cls.kinds, named_widths(cls.kinds, name), texts))
+
+    @classmethod
+    def from_json(cls, document: Json) -> Self:
+        """What `to_json` described."""
+        return cls({key: float(document.get(key, 0.0)) for key in cls.kinds})
+
+    def changed(self, texts: Iterable[str]) -> Self:
+        """These changed by texts; see `read_widths`."""
+        return type(self)(read_widths(self.kinds, self.widths, texts))
+
+    def to_json(self) -> Json:
+        """Plain data."""
+        return {key: self.widths[key] for key in self.kinds}
+
+    @property
+    def any(self) -> bool:
+        """Whether anything deviates."""
+        return any(self.widths.values())
+
+    def share(self, key: str, seed: int, *shape: int) -> Floats:
+        """What a seed draws of a key, evenly spread over its width to either side."""
+        return self.widths[key] * stream_of(key, seed).uniform(-1.0, 1.0, shape)

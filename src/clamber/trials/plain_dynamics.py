@@ -4,23 +4,21 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
-
-import numpy as np
 
 from ..errors import SpecError
 from ..execution.log_stream import LogGap
 from ..execution.run_report import RunReport
 from ..family import NotOfFamilyError, family_of
-from ..jobs import read_result
 from ..json_form import HIDDEN, INLINE, Count, Jsonable, Key
 from ..planning.problem.plan import Plan
 from ..planning.problem.verdict import check_plan
 from ..tasks import Task, task_from_document
 from ..types import Json
-from .dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest, search_to_run
+from .dynamics import Conditions, Dynamics, RunEvents, RunRequest, TaskRun, TrialsRequest, plan_to_run
 from .held_out import seeds_in_words
-from .noise import NoiseKind, read_widths
+from .noise import NoiseKind, named_widths, read_widths, stream_of
 from .trial_runs import Setup, Trials, wilson_interval
 
 if TYPE_CHECKING:
@@ -28,7 +26,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PlainRun(Jsonable):
+class PlainRun(Jsonable, TaskRun):
     """A plan that was carried out."""
 
     task: Annotated[Task, Key(get=lambda task: task.name, kind=str)]
@@ -39,11 +37,6 @@ class PlainRun(Jsonable):
     log_gap: Annotated[LogGap | None, HIDDEN] = None
 
     @property
-    def work(self) -> Task:
-        """What was carried out."""
-        return self.task
-
-    @property
     def trace(self) -> None:
         """None is kept."""
         return None
@@ -52,16 +45,6 @@ class PlainRun(Jsonable):
     def scene(self) -> None:
         """None is kept, either."""
         return None
-
-    @property
-    def done(self) -> bool:
-        """Whether the plan came to its end."""
-        return self.report.done
-
-    @property
-    def reason(self) -> str:
-        """Why not; empty where it did."""
-        return self.report.reason
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +93,8 @@ class ReplayedPlan:
 class PlainSetup(Setup[PlainRun, PlainTrial]):
     """What all trials have in common."""
 
+    kind = PlainTrial
+    unknown = MappingProxyType({"seconds": 0.0, "drawn": {}})
     task: Task
     widths: dict[str, float]
     plan: Plan | None
@@ -137,14 +122,6 @@ class PlainSetup(Setup[PlainRun, PlainTrial]):
         assert self.plan is not None, "plan first"
         plan = self.plan.to_json() | {"document": {}}
         return {"document": self.task.document, "noise": self.widths, "plan": plan, "seed": seed}
-
-    def trial(self, result: Json, store: Path | None = None) -> PlainTrial:
-        """The trial of a result."""
-        return read_result(PlainTrial, result, store)
-
-    def failed(self, seed: int, error: str) -> PlainTrial:
-        """A run that raised."""
-        return PlainTrial(seed=seed, done=False, reason=f"error: {error}", seconds=0.0, drawn={})
 
     def again(
         self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
@@ -199,9 +176,7 @@ class PlainDynamics(Dynamics):
             raise NotOfFamilyError(family_of(work).title, "faults")
 
     def _widths(self, asked: Conditions) -> dict[str, float]:
-        usual = isinstance(asked, TrialsRequest)
-        base = {key: kind.width if usual else 0.0 for key, kind in self.noise.items()}
-        return read_widths(self.noise, base, asked.noise)
+        return read_widths(self.noise, named_widths(self.noise, asked.noise_set), asked.noise)
 
     def run(self, work: Any, plan: Plan | None, asked: RunRequest, events: RunEvents, label: str = "plan") -> PlainRun:
         """One run of a plan."""
@@ -213,10 +188,7 @@ class PlainDynamics(Dynamics):
         self, task: Task, plan: Plan, widths: Mapping[str, float], seed: int, step: Callable[[str, float | None], None]
     ) -> PlainRun:
         """A plan carried out with what a seed draws of each width, from a stream for each key."""
-        drawn = {
-            key: width * float(np.random.default_rng([seed, *key.encode()]).uniform(-1.0, 1.0))
-            for key, width in widths.items()
-        }
+        drawn = {key: width * float(stream_of(key, seed).uniform(-1.0, 1.0)) for key, width in widths.items()}
         return PlainRun(task=task, plan=plan, report=self.simulate(task, plan, drawn, step), drawn=drawn)
 
     def _planned(
@@ -235,10 +207,7 @@ class PlainDynamics(Dynamics):
         return plan
 
     def _found(self, task: Any, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-        result = search_to_run(task, asked.planner, asked, events, seed)
-        if not result.has_plan:
-            raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
-        return result.plan
+        return plan_to_run(task, asked, events, seed, "was found")
 
     def plan(self, task: Any, asked: RunRequest, events: RunEvents) -> Plan:
         """As any plan of the task: what is simulated keeps to its checks."""

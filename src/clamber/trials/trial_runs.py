@@ -2,18 +2,21 @@
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Final, Generic, Protocol, TypeVar
+from typing import Annotated, Any, ClassVar, Final, Generic, Protocol, TypeVar
+
+import numpy as np
+from pydantic import Field
 
 from ..errors import ClamberError
 from ..interrupts import Interruptible
-from ..jobs import Executor, Kept, Outcome, look_into, map_items
-from ..json_form import Count, Jsonable, in_json
+from ..jobs import Executor, Kept, Outcome, look_into, map_items, read_result
+from ..json_form import HIDDEN, Count, Jsonable, in_json
 from ..notebook import Pictured
 from ..planning.problem.plan import Plan
-from ..types import Json
+from ..types import Floats, Json
 
 Z95: Final = 1.959963984540054
 """Two-sided 95 % of the normal distribution."""
@@ -102,6 +105,28 @@ class Paired(Jsonable):
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredFault:
+    """What is read back of a trial's fault; see `fault_trials.told_fault`."""
+
+    kind: str
+    where: str
+    start: Annotated[float, Field(strict=True)]
+    noticed: Annotated[float | None, Field(strict=True)]
+    at: str
+    ending: str
+
+
+def check_told(fault: Json | None, store: Path | None) -> None:
+    """Make sure that what a store has of a trial's fault can be summed up.
+
+    Raises:
+        SpecError: If a field is missing, or has a value of another type.
+    """
+    if fault is not None:
+        read_result(StoredFault, fault, store)
+
+
 TrialT = TypeVar("TrialT", bound=Trial)
 SetupT = TypeVar("SetupT", bound="Setup[Any, Any]")
 RunT = TypeVar("RunT")
@@ -110,6 +135,10 @@ RunT = TypeVar("RunT")
 class Setup(ABC, Generic[RunT, TrialT]):
     """What all trials of a work have in common, as plain as a worker needs it."""
 
+    kind: ClassVar[type[Any]]
+    """Of a trial."""
+    unknown: ClassVar[Mapping[str, Any]]
+    """What a trial that raised has in place of what it would have told."""
     task: Any
     plan: Plan | None
     faults: tuple[str, ...]
@@ -137,17 +166,20 @@ class Setup(ABC, Generic[RunT, TrialT]):
     def item(self, seed: int) -> Json:
         """One trial for a worker."""
 
-    @abstractmethod
     def trial(self, result: Json, store: Path | None = None) -> TrialT:
         """The trial that a worker returned, or that a store has.
 
         Raises:
             SpecError: If it is none.
         """
+        trial: TrialT = read_result(self.kind, result, store)
+        check_told(trial.fault, store)
+        return trial
 
-    @abstractmethod
     def failed(self, seed: int, error: str) -> TrialT:
         """A trial that raised, or whose workers died; it counts as a failure."""
+        made: TrialT = self.kind(seed=seed, done=False, reason=f"{ERROR}: {error}", **self.unknown)
+        return made
 
     @abstractmethod
     def again(self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]) -> tuple[RunT, TrialT]:
@@ -188,10 +220,10 @@ class Trials(Pictured, Generic[SetupT, TrialT]):
 
     setup: SetupT
     """With its plan."""
-    asked: int
+    asked: Count
     """How many there are to be."""
     ended: list[TrialT]
-    wall_seconds: float = 0.0
+    wall_seconds: Annotated[float, HIDDEN] = 0.0
     """All workers together, for the runs that ended."""
 
     @in_json(after="asked")
@@ -210,6 +242,11 @@ class Trials(Pictured, Generic[SetupT, TrialT]):
     def interval(self) -> tuple[float, float]:
         """Of the share that came to their end, 95 %, Wilson's."""
         return wilson_interval(self.done, len(self.ended))
+
+    def of(self, name: str) -> Floats:
+        """A number of all runs that have it."""
+        values = [getattr(trial, name) for trial in self.ended]
+        return np.array([value for value in values if value is not None], np.float64)
 
     def against(self, other: "Trials[Any, Any]") -> Paired:
         """These and those of another work, seed by seed.

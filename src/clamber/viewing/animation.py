@@ -176,10 +176,9 @@ def video(pictures: Iterable[Pixels]) -> bytes:
         writer = None
         for pixels in pictures:
             if writer is None:
-                size = pixels.shape[1], pixels.shape[0]
                 writer = imageio_ffmpeg.write_frames(
                     str(target),
-                    size,
+                    (pixels.shape[1], pixels.shape[0]),
                     fps=RATE,
                     codec="libx264",
                     quality=7,

@@ -145,11 +145,11 @@ class PlainArtists:
 
     @property
     def artists(self) -> list[Artist]:
-        """From back to front."""
+        """See `Robot`."""
         return [*self._lines, self._body]
 
     def update(self, at: Moment) -> None:
-        """Put every artist where a moment has it."""
+        """See `Robot`."""
         x, y = at.pose[:2]
         self._body.set_data([x], [y])
         for line, tip in zip(self._lines, at.tips, strict=True):

@@ -198,6 +198,10 @@ class View(Recording[Moment]):
     def lines(self, step: int, at: Moment) -> tuple[str, ...]:
         """A moment in words, one for each of `rows`."""
 
+    def facts(self, step: int, at: Moment) -> Facts:
+        """See `Recording`."""
+        return tuple(zip(self.rows, self.lines(step, at), strict=True))
+
     @abstractmethod
     def verdict(self, step: int) -> str:
         """What is to be thought of a step, in words; 0 is the start."""
@@ -257,10 +261,6 @@ class PlanView(View[Moment]):
         share = (time - stretch.start) / (stretch.end - stretch.start)
         ease = share if stretch.part.kind in EVEN else share * share * (3.0 - 2.0 * share)
         return stretch.part.at(ease, stretch.first + share * (stretch.last - stretch.first))
-
-    def facts(self, step: int, at: Moment) -> Facts:
-        """See `Recording`."""
-        return tuple(zip(self.rows, self.lines(step, at), strict=True))
 
     def reason(self, step: int) -> int:
         """Number of the check that a step violates; -1: none."""

@@ -1,15 +1,18 @@
 """Shares, causes, faults and what of the noise matters of many runs as a terminal shows them."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Final
 
+import numpy as np
 from rich.console import Console
 
 from ..execution.fault import FAULTS
 from ..trials.fault_trials import ENDINGS, FaultRow
+from ..trials.held_out import seeds_in_words
 from ..trials.noise import NoiseKind
 from ..trials.sensitivity import VERDICTS, Effect, Third
-from ..trials.trial_runs import wilson_interval
+from ..trials.trial_runs import Trials, wilson_interval
+from ..types import Floats
 from .text_table import plain_table
 
 MOST_NAMED: Final = 6
@@ -21,6 +24,40 @@ def percent(done: int, n: int) -> str:
     if n == 0:
         return "nothing to tell"
     return f"{100.0 * done / n:.1f} % ({share_range(wilson_interval(done, n))}, 95 %)"
+
+
+def print_ended(console: Console, trials: Trials[Any, Any], of: str, seeds: Sequence[int]) -> None:
+    """Print how many of some trials, such as "runs of 'ladder'", came to their end, with the interval of their share."""
+    n = len(trials.ended)
+    style = "bold green" if trials.done == n else "bold red"
+    console.print(f"{trials.done} of {n} {of} came to their end", style=style)
+    console.print(between(trials.interval))
+    console.print(seeds_in_words(seeds))
+
+
+def print_spreads(console: Console, rows: Iterable[tuple[str, Floats, int]]) -> None:
+    """Print the spread of what was measured: title, values, digits; nothing of what has no values."""
+    columns = ("median", "5 %", "95 %", "least", "most")
+    table = plain_table("", *columns, right=columns)
+    for title, values, digits in rows:
+        if len(values):
+            told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
+            table.add_row(title, *(f"{value:.{digits}f}" for value in told))
+    console.print(table)
+
+
+def print_computing(console: Console, trials: Trials[Any, Any], digits: int) -> None:
+    """Print how long trials took, and how much faster than what they simulate."""
+    simulated = float(trials.of("seconds").sum())
+    if trials.wall_seconds > 0.0:
+        speed = f"{simulated / trials.wall_seconds:.{digits}f}"
+        console.print(f"{trials.wall_seconds:.0f} s of computing: {speed} times as fast as they happen")
+
+
+def between(interval: tuple[float, float]) -> str:
+    """An interval of a share, such as "95 % between 92.6 and 100.0 %"."""
+    low, high = interval
+    return f"95 % between {100.0 * low:.1f} and {100.0 * high:.1f} %"
 
 
 def share_range(interval: tuple[float, float]) -> str:

@@ -4,7 +4,7 @@ import pytest
 
 from clamber.execution.fault import FAULTS, Fault, draw_fault
 from clamber.families.walker.planning import load_walk
-from clamber.families.walker.trials.noise import named_walk_noise
+from clamber.families.walker.trials.noise import WalkNoise
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.families.walker.trials.trials import failing_of
 from clamber.trials.fault_trials import ENDINGS, ending_of_run
@@ -18,7 +18,7 @@ LEG = 3
 
 def walked(fault: Fault | None) -> WalkRun:
     walk = load_walk("level-walk", ("way.0.distance=3cm",))
-    return run_walk(walk, walk_flaws(walk, ()), noise=named_walk_noise("usual"), seed=2, fault=fault)
+    return run_walk(walk, walk_flaws(walk, ()), noise=WalkNoise.of("usual"), seed=2, fault=fault)
 
 
 def fault_of(kind: str, size: float, channel: int = LEG) -> Fault:

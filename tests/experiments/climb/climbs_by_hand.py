@@ -7,7 +7,7 @@ import numpy as np
 from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import NOISE, Noise, named_noise
+from clamber.families.climber.trials.noise import NOISE, Noise
 from clamber.families.climber.trials.trial import ClimbTrial, TrialSetup
 from clamber.planning.problem.plan import Plan
 from clamber.tasks import load_task
@@ -23,7 +23,7 @@ def setup_of(*numbers: int, noise: Noise | None = None, **options: Any) -> Trial
     """Trials of a plan in the thesis's numbers."""
     task = ladder()
     plan = Plan.of_codes(task, [thesis_code(task, number) for number in numbers], planner="by hand")
-    return TrialSetup(task=task, plan=plan, noise=noise or named_noise("usual"), **options)
+    return TrialSetup(task=task, plan=plan, noise=noise or Noise.of("usual"), **options)
 
 
 def climb(seed: int, done: bool = True, **changes: Any) -> ClimbTrial:

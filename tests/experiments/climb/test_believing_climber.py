@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from clamber.benchmarks.climb_speed import two_rungs
-from clamber.families.climber.trials.noise import NO_NOISE, draw_for, read_noise
+from clamber.families.climber.trials.noise import Noise, draw_for
 from clamber.families.climber.trials.plants import drawn_plant
 from clamber.families.climber.trials.run_plan import believing_climber, climbing_flaws
 
@@ -12,7 +12,7 @@ from clamber.families.climber.trials.run_plan import believing_climber, climbing
 @pytest.mark.parametrize("text", ["0mm", "3mm", "6.35mm"])
 def test_the_map_may_be_off_by_the_width_of_the_noise_and_no_more(text: str) -> None:
     task, _ = two_rungs()
-    noise = read_noise(NO_NOISE, [f"peg_error={text}"])
+    noise = Noise.of("none", [f"peg_error={text}"])
     drawn = draw_for(task, noise, 5)
     climber = believing_climber(task, drawn_plant(task, climbing_flaws(task, ()), drawn), noise, drawn)
     width = 1e-3 * float(text.removesuffix("mm"))

@@ -11,6 +11,7 @@ from clamber.families.climber.sim.climber_plant import ClimberPlant
 from clamber.families.climber.trials.noise import (
     NO_NOISE,
     NOISE,
+    Noise,
     assumed_backlash,
     check_noise,
     draw,
@@ -19,9 +20,6 @@ from clamber.families.climber.trials.noise import (
     drawn_hook,
     drawn_robot,
     encoder_offsets,
-    named_noise,
-    noise_of,
-    read_noise,
 )
 from clamber.families.climber.world.library import load_board
 from clamber.sim.limb_flaws import LimbFlaws
@@ -51,11 +49,11 @@ def climbable(name: str) -> LimbedTask:
 
 def test_each_key_draws_from_its_own_stream() -> None:
     uneven = ["joint_friction=10%", "terrain=20mm", "tilt=2deg", "missing=30%"]
-    usual, task = read_noise(named_noise("usual"), uneven), climbable("ladder")
+    usual, task = Noise.of("usual", uneven), climbable("ladder")
     all_drawn = draw_for(task, usual, 7)
     for off in NOISE:
         nothing = f"{off}=0{'%' if NOISE[off].dimension == 'ratio' else NOISE[off].unit}"
-        without = draw_for(task, read_noise(usual, [nothing]), 7)
+        without = draw_for(task, usual.changed([nothing]), 7)
         for key in NOISE:
             name = "pegs" if key == "peg_error" else key
             kept, left = np.asarray(getattr(all_drawn, name)), np.asarray(getattr(without, name))
@@ -64,19 +62,19 @@ def test_each_key_draws_from_its_own_stream() -> None:
 
 
 def test_draws_fill_their_widths_evenly_and_scale_with_them() -> None:
-    usual, robot = named_noise("usual"), libra()
+    usual, robot = Noise.of("usual"), libra()
     shares = np.array([draw(usual, robot, HOLDS, seed).friction for seed in range(600)]) / usual.widths["friction"]
     assert np.abs(shares).max() <= 1.0
     quarters = np.histogram(shares, bins=4, range=(-1.0, 1.0))[0]
     assert np.abs(quarters - 150).max() < 4 * (600 * 0.25 * 0.75) ** 0.5  # four standard deviations
-    half = read_noise(usual, ["friction=15%"])
+    half = usual.changed(["friction=15%"])
     assert draw(half, robot, HOLDS, 3).friction == pytest.approx(draw(usual, robot, HOLDS, 3).friction / 2)
     pegs = draw(usual, robot, HOLDS, 3).pegs
     assert 0.004 < np.abs(pegs).max() <= 0.00635
 
 
 def test_of_pegs_the_largest_distance_of_those_that_count_is_told() -> None:
-    drawn = draw(named_noise("usual"), libra(), HOLDS, 3)
+    drawn = draw(Noise.of("usual"), libra(), HOLDS, 3)
     far = np.hypot(*drawn.pegs.T)
     assert drawn.to_json()["peg_error"] == far.max()
     assert drawn.to_json(np.array([1, 6, 8], np.int32))["peg_error"] == max(far[1], far[6], far[8])
@@ -84,7 +82,7 @@ def test_of_pegs_the_largest_distance_of_those_that_count_is_told() -> None:
 
 @pytest.mark.parametrize("seed", range(4))
 def test_a_robot_is_put_on_its_holds_where_they_truly_are_and_stays_on_them(seed: int) -> None:
-    drawn = draw(named_noise("usual"), libra(), HOLDS, seed)
+    drawn = draw(Noise.of("usual"), libra(), HOLDS, seed)
     pegs = BOARD.positions() + drawn.pegs
     climber = Climber(libra(), BOARD, ClimberPlant(libra(), BOARD, FLAWS, pegs=pegs), map_error=0.00635)
     climber.start(START, ON, idle="bottom", elbows={})
@@ -109,7 +107,7 @@ def test_no_noise_leaves_the_nominal_plant() -> None:
 
 
 def test_a_payload_raises_the_weight_on_the_pegs_by_that_much() -> None:
-    robot, noise = libra(), read_noise(NO_NOISE, ["payload=10%"])
+    robot, noise = libra(), Noise.of("none", ["payload=10%"])
     forces = {}
     for seed in (0, 1):
         drawn = draw(noise, robot, HOLDS, seed)
@@ -142,7 +140,7 @@ def upward_on_robot(plant: ClimberPlant) -> float:
 
 def test_friction_of_joints_and_hooks_is_scaled() -> None:
     robot = libra()
-    noise = read_noise(NO_NOISE, ["friction=30%", "joint_friction=20%", "hook_friction=25%"])
+    noise = Noise.of("none", ["friction=30%", "joint_friction=20%", "hook_friction=25%"])
     drawn = draw(noise, robot, HOLDS, 4)
     nominal, plant = ClimberPlant(robot, BOARD, FLAWS), ClimberPlant(drawn_robot(robot, drawn), BOARD, FLAWS)
     for i, limb in enumerate(robot.limbs):
@@ -157,7 +155,7 @@ def test_friction_of_joints_and_hooks_is_scaled() -> None:
 
 
 def test_backlash_and_slots_are_as_wide_as_drawn() -> None:
-    robot, noise = libra(), read_noise(NO_NOISE, ["backlash=0.5deg", "assumed_backlash=0.5deg", "hook_play=0.5mm"])
+    robot, noise = libra(), Noise.of("none", ["backlash=0.5deg", "assumed_backlash=0.5deg", "hook_play=0.5mm"])
     drawn = draw(noise, robot, HOLDS, 2)
     plant = ClimberPlant(robot, BOARD, drawn_flaws(FLAWS, drawn), shape=drawn_hook(drawn))
     low, high = plant.model.joint("left elbow play").range
@@ -176,7 +174,7 @@ def slot(plant: ClimberPlant) -> float:
 
 def test_encoders_read_too_much_by_their_offsets() -> None:
     robot = libra()
-    drawn = draw(read_noise(NO_NOISE, ["body_angle=1deg", "joint_angle=0.3deg"]), robot, HOLDS, 6)
+    drawn = draw(Noise.of("none", ["body_angle=1deg", "joint_angle=0.3deg"]), robot, HOLDS, 6)
     plant = ClimberPlant(robot, BOARD, LimbFlaws(physics_rate=1000.0), offsets=encoder_offsets(drawn))
     q = np.array([[0.3, -0.4], [-0.2, 0.5], [0.1, -0.1]])
     plant.reset(np.array((0.2, 0.3, 0.05)), q)
@@ -188,12 +186,12 @@ def test_encoders_read_too_much_by_their_offsets() -> None:
 
 
 def test_a_noise_comes_back_from_plain_data() -> None:
-    noise = read_noise(named_noise("usual"), ["friction = 12.5 %", "peg_error=0.25in"])
-    assert noise_of(noise.to_json()) == noise
+    noise = Noise.of("usual", ["friction = 12.5 %", "peg_error=0.25in"])
+    assert Noise.from_json(noise.to_json()) == noise
     assert noise.widths["peg_error"] == pytest.approx(0.00635)
     assert "friction 12.5 %" in noise.words() and "6.35 mm" in noise.words()
-    assert read_noise(noise, ["none"]) == NO_NOISE
-    assert read_noise(NO_NOISE, ["usual", "payload=0%"]).widths["payload"] == 0.0
+    assert noise.changed(["none"]) == NO_NOISE
+    assert Noise.of("none", ["usual", "payload=0%"]).widths["payload"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -209,7 +207,7 @@ def test_a_noise_comes_back_from_plain_data() -> None:
 )
 def test_a_wrong_width_is_told(text: str, message: str) -> None:
     with pytest.raises(NoiseError, match=message):
-        read_noise(NO_NOISE, [text])
+        Noise.of("none", [text])
 
 
 @pytest.mark.parametrize(
@@ -217,4 +215,4 @@ def test_a_wrong_width_is_told(text: str, message: str) -> None:
 )  # the links alone weigh a third
 def test_what_there_is_not_cannot_be_taken_away(text: str) -> None:
     with pytest.raises(NoiseError, match="all that there is"):
-        check_noise(read_noise(NO_NOISE, [text]), libra(), FLAWS)
+        check_noise(Noise.of("none", [text]), libra(), FLAWS)

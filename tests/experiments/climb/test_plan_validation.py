@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import NO_NOISE, read_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.planning import QUIET, SEEDS, PlanValidation, plan_to_climb, validations
 from clamber.families.climber.trials.run_plan import climbing_flaws, climbing_task
 from clamber.planning.problem.plan import Plan
@@ -21,7 +21,7 @@ def test_a_plan_is_climbed_by_as_often_as_it_is_carried_out() -> None:
     task = climbing_task(opened.task)
     few = Plan.of_codes(task, opened.plan.codes(task)[:3], planner="hand")
     assert validations(climbing_flaws(task, ()), QUIET)(task, few) == PlanValidation(len(SEEDS), 1.0)
-    lost = validations(climbing_flaws(task, ()), QUIET, read_noise(NO_NOISE, ("peg_error=30mm",)))(task, opened.plan)
+    lost = validations(climbing_flaws(task, ()), QUIET, Noise.of("none", ("peg_error=30mm",)))(task, opened.plan)
     assert lost.climbed == 0 and lost.share < 1.0
 
 

@@ -6,14 +6,7 @@ import pytest
 from clamber.families.climber.execution.executable_plan import climbable
 from clamber.families.climber.execution.hold_map import HoldMap, TipDifference
 from clamber.families.climber.planning.task import LimbedTask
-from clamber.families.climber.trials.noise import (
-    NO_NOISE,
-    centre_of,
-    draw_for,
-    read_noise,
-    terrain_covariance,
-    true_places,
-)
+from clamber.families.climber.trials.noise import Noise, centre_of, draw_for, terrain_covariance, true_places
 from clamber.families.climber.trials.trial import TrialSetup, climb_once
 from clamber.studies.bevly_1997.body_climb import gait_plan
 from clamber.tasks import load_task
@@ -28,7 +21,7 @@ def task_named(name: str) -> LimbedTask:
 
 def shifts(name: str, texts: list[str], seeds: range) -> Floats:
     """Where holds are less where they are mapped, shape (seeds, n_holds, 2) [m]."""
-    task, noise = task_named(name), read_noise(NO_NOISE, texts)
+    task, noise = task_named(name), Noise.of("none", texts)
     return np.array([true_places(task, draw_for(task, noise, seed)) - task.world.positions() for seed in seeds])
 
 
@@ -58,7 +51,7 @@ def test_a_tilt_turns_the_board_about_the_start() -> None:
 
 
 def test_missing_holds_are_as_many_as_asked_and_never_those_of_the_start() -> None:
-    task, noise = task_named("ladder"), read_noise(NO_NOISE, ["missing=25%"])
+    task, noise = task_named("ladder"), Noise.of("none", ["missing=25%"])
     gone = np.array([draw_for(task, noise, seed).missing for seed in range(200)])
     start = np.array([hold.number in task.start.holds.values() for hold in task.world.holds])
     assert start.sum() == 3 and not gone[:, start].any()
@@ -70,7 +63,7 @@ def test_missing_holds_are_as_many_as_asked_and_never_those_of_the_start() -> No
 
 @pytest.mark.parametrize("texts", [["terrain=30mm"], ["tilt=3deg"], ["terrain=30mm", "tilt=3deg"]])
 def test_what_the_controller_knows_is_as_wide_as_what_is_drawn(texts: list[str]) -> None:
-    task, noise = task_named("ladder"), read_noise(NO_NOISE, texts)
+    task, noise = task_named("ladder"), Noise.of("none", texts)
     known = terrain_covariance(task, noise.widths["terrain"], noise.widths["tilt"])
     assert known is not None and np.linalg.eigvalsh(known).min() > -1e-12
     found = shifts("ladder", texts, range(300)).reshape(300, -1)
@@ -99,7 +92,7 @@ def touched(terrain: Floats | None, task: LimbedTask, off: Floats) -> HoldMap:
 def test_holds_that_were_touched_tell_of_those_ahead() -> None:
     """By the tilt of the board: without that knowledge the next hold is as unknown as before."""
     task = task_named("ladder")
-    noise = read_noise(NO_NOISE, ["tilt=4deg"])
+    noise = Noise.of("none", ["tilt=4deg"])
     seed = next(seed for seed in range(20) if abs(draw_for(task, noise, seed).tilt) > np.radians(3.0))
     off = true_places(task, draw_for(task, noise, seed)) - task.world.positions()
     numbers = [hold.number for hold in task.world.holds]
@@ -125,7 +118,7 @@ def test_holds_that_were_touched_tell_of_those_ahead() -> None:
 def test_what_is_near_the_robot_is_known_better_than_what_is_far_even_where_all_of_it_is_off() -> None:
     """Else every hold far from the start would be too doubtful for a limb to find a way by it."""
     task = task_named("ladder")
-    noise = read_noise(NO_NOISE, ["terrain=60mm"])
+    noise = Noise.of("none", ["terrain=60mm"])
     known = terrain_covariance(task, noise.widths["terrain"], 0.0)
     hold_map = touched(known, task, np.zeros((len(task.world.holds), 2)))
     numbers = [hold.number for hold in task.world.holds]
@@ -139,7 +132,7 @@ def test_what_is_near_the_robot_is_known_better_than_what_is_far_even_where_all_
 @pytest.mark.slow
 def test_two_rungs_are_climbed_on_a_board_warped_and_turned() -> None:
     """Seed 1 turns the board by 6 deg; a peg that the climb takes is 51 mm off the map."""
-    task, noise = climbable(task_named("ladder")), read_noise(NO_NOISE, ["terrain=60mm", "tilt=6deg"])
+    task, noise = climbable(task_named("ladder")), Noise.of("none", ["terrain=60mm", "tilt=6deg"])
     plan = gait_plan(task, 2)
     off = np.linalg.norm(true_places(task, draw_for(task, noise, 1)) - task.world.positions(), axis=1)
     taken = {action.hold for action in plan.actions}

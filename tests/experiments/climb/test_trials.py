@@ -22,7 +22,7 @@ from clamber.families.climber.execution.executable_plan import PlanRefusedError
 from clamber.families.climber.planning.plans import thesis_code
 from clamber.families.climber.trials import run_plan as runs
 from clamber.families.climber.trials import trial as one
-from clamber.families.climber.trials.noise import NO_NOISE, NOISE, named_noise, read_noise
+from clamber.families.climber.trials.noise import NOISE, Noise
 from clamber.families.climber.trials.trial import climb_once, error_trial, plans_on_the_way, trial_of, with_plan
 from clamber.jobs import LocalProcesses, StoreError
 from clamber.planning.problem.plan import Plan
@@ -54,9 +54,9 @@ def test_a_trial_is_the_same_from_a_worker_and_climbed_again(tmp_path: Path) -> 
 
 
 def test_a_stored_trial_tells_what_its_seed_drew_and_nothing_of_other_seeds() -> None:
-    noise = read_noise(NO_NOISE, ["payload=10%"])
+    noise = Noise.of("none", ["payload=10%"])
     _, trial, _ = climb_once(setup_of(300, noise=noise), 1)
-    _, other, _ = climb_once(setup_of(300, noise=named_noise("usual")), 1)
+    _, other, _ = climb_once(setup_of(300, noise=Noise.of("usual")), 1)
     assert trial.drawn["payload"] == other.drawn["payload"] != 0.0
     assert not any(value for key, value in trial.drawn.items() if key != "payload")
 
@@ -154,7 +154,7 @@ def test_the_plan_is_made_once_and_kept_in_the_store(tmp_path: Path, monkeypatch
 def test_a_store_of_other_trials_and_a_plan_that_fails_are_refused_before_anything_runs(tmp_path: Path) -> None:
     setup, store = setup_of(300), tmp_path / "trials.db"
     run_trials(setup, [0], executor=LocalProcesses(1), store=store)
-    other = replace(setup, noise=read_noise(setup.noise, ["friction=10%"]))
+    other = replace(setup, noise=setup.noise.changed(["friction=10%"]))
     for changed in (other, replace(setup, plant=("backlash=1deg",)), setup_of(300, 3)):
         with pytest.raises(StoreError, match="holds the results of trials of 'ladder'"):
             with_plan(changed, store)
@@ -163,7 +163,7 @@ def test_a_store_of_other_trials_and_a_plan_that_fails_are_refused_before_anythi
     with pytest.raises(PlanRefusedError, match="mine, step"):
         with_plan(setup_of(300, *([3] * 8)), label="mine")
     with pytest.raises(NoiseError, match="hook_play"):
-        with_plan(replace(setup, noise=read_noise(setup.noise, ["hook_play=2mm"])))
+        with_plan(replace(setup, noise=setup.noise.changed(["hook_play=2mm"])))
 
 
 def command(plan: Path, store: Path, *more: str) -> list[str]:

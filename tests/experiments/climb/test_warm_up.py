@@ -18,7 +18,7 @@ CLIMB = """
 import gc
 from numba.core.registry import CPUDispatcher
 from clamber.benchmarks.climb_speed import two_rungs
-from clamber.families.climber.trials.noise import named_noise
+from clamber.families.climber.trials.noise import Noise
 from clamber.families.climber.trials.run_plan import climbing_flaws, run_plan
 from clamber.families.climber.trials.warm_up import warm_up
 
@@ -28,7 +28,7 @@ def loaded():
 warm_up()
 before = loaded()
 task, plan = two_rungs()
-run = run_plan(task, plan, climbing_flaws(task, ()), noise=named_noise("usual"), seed=3, plant="volts")
+run = run_plan(task, plan, climbing_flaws(task, ()), noise=Noise.of("usual"), seed=3, plant="volts")
 assert len(run.report.actions) == 11, run.report.reason
 assert len(before) > 5
 print(sorted(loaded() - before))

@@ -11,7 +11,7 @@ from clamber.execution.plant import PlantStoppedError
 from clamber.families.walker.planning import load_walk
 from clamber.families.walker.sim.walker_flaws import WalkerFlaws
 from clamber.families.walker.sim.walker_plant import WalkerSim
-from clamber.families.walker.trials.noise import WALK_NOISE, named_walk_noise, read_walk_noise
+from clamber.families.walker.trials.noise import WALK_NOISE, WalkNoise
 from clamber.families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from clamber.sim.plant_rules import PlantError
 from clamber.trials.noise import NoiseError
@@ -95,7 +95,7 @@ def test_without_levelling_a_slope_downhill_topples_it() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("uphill", first_fast([90.0, 0.0, 180.0]))
 def test_a_start_tilted_by_ten_degrees_returns_to_level(uphill: float) -> None:
-    noise = read_walk_noise(named_walk_noise("usual"), ["inclinometer_offset=0deg"])
+    noise = WalkNoise.of("usual", ["inclinometer_offset=0deg"])
     run = walked(
         "slope-walk", "start.plate=ground", f"ground.uphill={uphill}deg", "way.0.distance=2cm", noise=noise, seed=3
     )
@@ -106,14 +106,14 @@ def test_a_start_tilted_by_ten_degrees_returns_to_level(uphill: float) -> None:
 
 def test_noise_is_drawn_key_by_key() -> None:
     base = WalkerFlaws()
-    usual = named_walk_noise("usual")
+    usual = WalkNoise.of("usual")
     one, again, other = usual.flaws(base, 1), usual.flaws(base, 1), usual.flaws(base, 2)
     assert one == again
     assert one.friction != other.friction
     width = WALK_NOISE["inclinometer_offset"].width
     assert max(map(abs, one.inclinometers.offsets)) <= width
     assert one.inclinometers.noise == WALK_NOISE["inclinometer_noise"].width
-    calm = read_walk_noise(usual, ["friction=0%"]).flaws(base, 1)
+    calm = usual.changed(["friction=0%"]).flaws(base, 1)
     assert calm.friction == 1.0
     assert calm.inclinometers == one.inclinometers
 
@@ -121,7 +121,7 @@ def test_noise_is_drawn_key_by_key() -> None:
 @pytest.mark.parametrize("text", ["frictoin=1%", "friction=", "friction=-1%", "mass=100%", "force_noise=1deg"])
 def test_noise_that_cannot_be_is_named(text: str) -> None:
     with pytest.raises(NoiseError, match="noise: "):
-        read_walk_noise(named_walk_noise("none"), [text])
+        WalkNoise.of("none", [text])
 
 
 def test_settings_of_the_plant_are_split_and_read() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from clamber.families.walker.planning import load_walk
 from clamber.families.walker.planning.task import WalkerTask
-from clamber.families.walker.trials.noise import WalkNoise, named_walk_noise
+from clamber.families.walker.trials.noise import WalkNoise
 from clamber.families.walker.trials.planned import careful
 from clamber.families.walker.trials.trials import WalkSetup, WalkTrial, WalkTrials, run_walk_trial
 from clamber.jobs import LocalProcesses, StoreError
@@ -32,7 +32,7 @@ def trial(**changes: Any) -> WalkTrial:
 @pytest.mark.slow
 def test_a_trial_is_the_same_again_by_its_seed() -> None:
     walk = load_walk("level-walk", [SHORT])
-    noise = WalkNoise(named_walk_noise("usual").widths | {"inclinometer_offset": 0.0})  # no calibration
+    noise = WalkNoise(WalkNoise.of("usual").widths | {"inclinometer_offset": 0.0})  # no calibration
     setup = WalkSetup(walk, noise)
     first, again, other = (run_walk_trial(setup.item(seed)) for seed in (5, 5, 6))
     assert first == again
@@ -44,7 +44,7 @@ def test_a_trial_is_the_same_again_by_its_seed() -> None:
 @pytest.mark.slow
 @pytest.mark.usefixtures("in_this_process")
 def test_trials_are_kept_and_taken_from_their_store(tmp_path: Path) -> None:
-    setup, store = WalkSetup(load_walk("level-walk", [SHORT]), named_walk_noise("none")), tmp_path / "walks.db"
+    setup, store = WalkSetup(load_walk("level-walk", [SHORT]), WalkNoise.of("none")), tmp_path / "walks.db"
     crew = LocalProcesses(1)
     one = run_trials(setup, range(1), executor=crew, store=store)
     told: list[int] = []
@@ -63,7 +63,7 @@ def test_a_plan_is_walked_by_every_seed_and_kept_in_the_store(tmp_path: Path) ->
                                     "goal.theta_min=-1deg", "goal.theta_max=1deg"))  # fmt: skip
     result = plan_task(task, "exact")
     assert result.has_plan
-    setup, store = WalkSetup(task, named_walk_noise("none"), (), result.plan, planned=True), tmp_path / "walks.db"
+    setup, store = WalkSetup(task, WalkNoise.of("none"), (), result.plan, planned=True), tmp_path / "walks.db"
     assert setup.stored_plan(store) is None
     trials = run_trials(setup, range(2), executor=LocalProcesses(1), store=store)
     assert [trial.done for trial in trials.ended] == [True, True], trials.ended
@@ -83,7 +83,7 @@ def load_walker_task(name: str, *settings: str) -> WalkerTask:
 @pytest.mark.slow
 def test_a_point_that_is_held_is_measured_in_every_trial() -> None:
     walk = load_walk("slope-walk", ("hold={ x='5 cm', y='0.3 m', z='0.6 m', within='4 cm' }", "way.0.distance=10cm"))
-    noise = WalkNoise(named_walk_noise("usual").widths | {"inclinometer_offset": 0.0})
+    noise = WalkNoise(WalkNoise.of("usual").widths | {"inclinometer_offset": 0.0})
     told = WalkTrial(**run_walk_trial(WalkSetup(walk, noise).item(1)))
     assert told.done, told.reason
     assert told.held_way == pytest.approx(0.08, abs=2e-3)
@@ -92,7 +92,7 @@ def test_a_point_that_is_held_is_measured_in_every_trial() -> None:
 
 def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_balance() -> None:
     ended = [trial(), trial(seed=1, done=False, reason="fell", margin=None, off=None), trial(seed=2, margin=-0.01)]
-    trials = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 3, ended)
+    trials = WalkTrials(WalkSetup(load_walk("level-walk"), WalkNoise.of("none")), 3, ended)
     assert (trials.done, trials.balanced) == (2, 1)
     low, high = trials.interval
     assert 0.0 < low < 2 / 3 < high < 1.0
@@ -103,7 +103,7 @@ def test_shares_count_walks_that_came_to_their_end_and_those_that_kept_their_bal
 def test_a_walk_is_level_if_it_came_to_its_end_and_was_so_all_the_way() -> None:
     tilts = (0.099, 0.101, 0.05, 0.02)
     ended = [trial(seed=k, tilt=math.radians(tilt), done=k != 3) for k, tilt in enumerate(tilts)]
-    trials = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 4, ended)
+    trials = WalkTrials(WalkSetup(load_walk("level-walk"), WalkNoise.of("none")), 4, ended)
     assert trials.level == 2
     assert trials.to_json()["level"] == 2
 
@@ -111,7 +111,7 @@ def test_a_walk_is_level_if_it_came_to_its_end_and_was_so_all_the_way() -> None:
 def test_causes_gather_walks_that_ended_alike() -> None:
     reasons = ("fell: the robot tips", "step 4: refused: too far", "step 9: refused: too long", "lost: 30 mm away", "")
     ended = [trial(seed=k, done=not reason, reason=reason, steps=k) for k, reason in enumerate(reasons)]
-    causes = WalkTrials(WalkSetup(load_walk("level-walk"), named_walk_noise("none")), 5, ended).causes()
+    causes = WalkTrials(WalkSetup(load_walk("level-walk"), WalkNoise.of("none")), 5, ended).causes()
     assert [(cause.words, cause.n, cause.steps, cause.seeds) for cause in causes] == [
         ("refused", 2, (1, 2), (1, 2)), ("fell", 1, (0,), (0,)), ("lost", 1, (3,), (3,)),
     ]  # fmt: skip

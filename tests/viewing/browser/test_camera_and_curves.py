@@ -16,9 +16,8 @@ from clamber.planning.problem.plan import Plan
 from clamber.planning.problem.plan_source import open_plan
 from clamber.viewing.animation import RATE
 from clamber.viewing.browser.app import App
-from clamber.viewing.browser.camera_panel import preset
+from clamber.viewing.browser.camera_panel import MOST, encode, file_name, preset
 from clamber.viewing.browser.curves import Curves
-from clamber.viewing.browser.recording import MOST, encode, file_name
 from clamber.viewing.browser.solids import Camera
 from clamber.viewing.browser.viewer_content import ViewerContent, exhibit_of, run_exhibit
 from clamber.viewing.recording import StillFilm

@@ -22,7 +22,7 @@ from .planning.task import LimbedTask
 from .robot.robot import LimbedRobot
 from .sim.climber_model import boxed_climber
 from .trajectories import climb_stances
-from .trials.noise import NO_NOISE, Noise, check_noise, named_noise, read_noise
+from .trials.noise import Noise, check_noise
 from .trials.planning import no_plan, plan_to_climb, replanner, validations
 from .trials.plants import check_plant, is_remote
 from .trials.run_plan import ClimbRun, action_told, climbing_flaws, climbing_task, run_plan
@@ -74,7 +74,7 @@ class ClimberDynamics(Dynamics):
                 raise SpecError("--set", f"plant.{key}", value, "is the plant server's to set")
         if isinstance(asked, TrialsRequest):
             check_faults(asked.faults, tuple(FAULTS))
-        check_noise(_noise(asked), work.robot, flaws)
+        check_noise(Noise.of(asked.noise_set, asked.noise), work.robot, flaws)
 
     def plan(self, task: LimbedTask, asked: RunRequest, events: RunEvents) -> Plan:
         """Found with something kept back, and rehearsed."""
@@ -165,7 +165,7 @@ class ClimberDynamics(Dynamics):
             task,
             plan,
             flaws,
-            noise=_noise(asked),
+            noise=Noise.of(asked.noise_set, asked.noise),
             seed=asked.seed,
             force=asked.force,
             replan=planned_again if asked.replan else None,
@@ -194,7 +194,7 @@ class ClimberDynamics(Dynamics):
         _refuse_unfit(work, asked)
         setup = TrialSetup(
             task=climbing_task(work),
-            noise=_noise(asked),
+            noise=Noise.of(asked.noise_set, asked.noise),
             plan=plan,
             plant=asked.plant,
             planner=asked.planner,
@@ -239,11 +239,6 @@ def _refuse_unfit(task: LimbedTask, asked: Conditions) -> None:
 def _search(asked: RunRequest, events: RunEvents) -> dict[str, Any]:
     """What every search for a plan is given."""
     return {"seconds": asked.plan_seconds, "seed": asked.seed, "events": events}
-
-
-def _noise(asked: Conditions) -> Noise:
-    """Widths: of trials the usual ones, of one run none, but for those that are named."""
-    return read_noise(named_noise("usual") if isinstance(asked, TrialsRequest) else NO_NOISE, asked.noise)
 
 
 DYNAMICS: Final = ClimberDynamics()

@@ -4,12 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 from ...family import Family
-
-if TYPE_CHECKING:
-    from ...planning.problem.check import Check
 
 
 class Climber(Family):
@@ -27,6 +23,7 @@ class Climber(Family):
     groups = MappingProxyType({"plant": "clamber.families.climber.cli.plant:plant"})
     parts = MappingProxyType(
         {
+            "checks": "clamber.families.climber.statics.checks:LIMBED_CHECKS",
             "files": "clamber.families.climber.planning.task_file:FILES",
             "plans": "clamber.families.climber.planning.plans:PLANS",
             "relaxations": "clamber.families.climber.planning.relaxations:climber_relaxations",
@@ -42,13 +39,6 @@ class Climber(Family):
             "model": "clamber.families.climber.sim.climber_model:lone_climber",
         }
     )
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """Of its stances, without all that plans need."""
-        from .statics.checks import LIMBED_CHECKS
-
-        return LIMBED_CHECKS
 
 
 CLIMBER = Climber()

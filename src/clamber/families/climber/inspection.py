@@ -9,8 +9,8 @@ from typing import Final
 import numpy as np
 import numpy.typing as npt
 
-from ...inspection.finding import FileKind, Finding, Inspection
-from ...shown_units import SI, ShownUnits, Unit
+from ...inspection.finding import FileKind, Finding, Inspection, nearest, span_words
+from ...shown_units import SI, ShownUnits
 from ...types import Floats
 from ...units import DEGREE, GRAVITY
 from .planning.task import LimbedTask
@@ -47,16 +47,10 @@ def _limbed_facts(robot: LimbedRobot, units: ShownUnits) -> dict[str, str]:
         "family": "limbed climber",
         "limbs": ", ".join(f"{limb.name} ({limb.end.kind})" for limb in robot.limbs),
         "weight": f"{robot.weight / units.force[1]:.4g} {units.force[0]}",
-        "limbs reach": f"{_span([min(nearest), max(farthest)], units.place)} from their ports",
-        "joint torque": _span(torques, units.torque),
+        "limbs reach": f"{span_words([min(nearest), max(farthest)], units.place)} from their ports",
+        "joint torque": span_words(torques, units.torque),
         "numbers": f"{len(robot.sources)} with a source, {made_up} of them made up",
     }
-
-
-def _span(values: list[float], shown: Unit) -> str:
-    unit, size, _ = shown
-    low, high = min(values) / size, max(values) / size
-    return f"{low:.4g} {unit}" if high - low < 1e-9 else f"{low:.4g} to {high:.4g} {unit}"
 
 
 def _odd_limbs(robot: LimbedRobot) -> Iterator[str]:
@@ -143,16 +137,6 @@ def inspect_board(board: Board, units: ShownUnits = SI) -> Finding:
         facts["nearest two"] = units.length(float(away.min()))
     odd = (*_lonely(board, away), *_covered(board, points))
     return Finding(kind="board", name=board.name, title=board.title, facts=facts, odd=odd)
-
-
-def nearest(points: Floats) -> Floats:
-    """Distance of each of the points, shape (n, 2), from the one nearest to it [m], shape (n,); infinite for a single one."""
-    from scipy.spatial import cKDTree  # takes a tenth of a second to import
-
-    if len(points) < 2:
-        return np.full(len(points), np.inf)
-    away: Floats = cKDTree(points).query(points, k=2)[0][:, 1]
-    return away
 
 
 def _lonely(board: Board, away: Floats) -> Iterator[str]:

@@ -26,11 +26,7 @@ from .execution.faulty_spatial import fault_kinds
 from .planning.plane_climb import task_of
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import read_spatial_flaws
-from .trials.noise import (
-    SpatialNoise,
-    named_spatial_noise,
-    read_spatial_noise,
-)
+from .trials.noise import SpatialNoise
 from .trials.planning import found_plan, replanner
 from .trials.run_plan import (
     Control,
@@ -81,7 +77,7 @@ class SpatialDynamics(Dynamics):
         """Plant, noise, law and faults."""
         body_law(asked.law or USUAL)
         read_spatial_flaws(asked.plant)
-        _noise(asked)
+        SpatialNoise.of(asked.noise_set, asked.noise)
         if isinstance(asked, TrialsRequest):
             check_faults(asked.faults, fault_kinds(work.robot))
 
@@ -98,7 +94,7 @@ class SpatialDynamics(Dynamics):
     ) -> SpatialRun:
         """One plan carried out."""
         plan = self._fit(work, plan, asked, events, asked.seed, label)
-        noise = _noise(asked)
+        noise = SpatialNoise.of(asked.noise_set, asked.noise)
 
         def told(action: int, of: int) -> None:
             events.step(f"action {action} of {of}", action / of)
@@ -149,7 +145,7 @@ class SpatialDynamics(Dynamics):
         """What all runs have in common."""
         setup = SpatialSetup(
             task=work,
-            noise=_noise(asked),
+            noise=SpatialNoise.of(asked.noise_set, asked.noise),
             plant=tuple(asked.plant),
             law=asked.law or USUAL,
             plan=plan,
@@ -168,12 +164,6 @@ class SpatialDynamics(Dynamics):
         from .pictures.trials_text import print_spatial_trials
 
         print_spatial_trials(console, trials, seeds)
-
-
-def _noise(asked: Conditions) -> SpatialNoise:
-    """Widths: of trials the usual ones, of one run none, but for those that are named."""
-    base = "usual" if isinstance(asked, TrialsRequest) else "none"
-    return read_spatial_noise(named_spatial_noise(base), asked.noise)
 
 
 DYNAMICS: Final = SpatialDynamics()

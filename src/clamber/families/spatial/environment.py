@@ -25,7 +25,7 @@ from .execution.estimated_base import EstimatedBase
 from .planning.task import SpatialTask
 from .sim.spatial_flaws import SpatialFlaws
 from .sim.spatial_plant import SpatialSim
-from .trials.noise import named_spatial_noise, read_spatial_noise
+from .trials.noise import SpatialNoise
 from .trials.planning import found_plan
 
 if TYPE_CHECKING:
@@ -74,7 +74,7 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         seconds: float | None = None,
     ) -> None:
         self.task, self.plan = _planned(task, settings, plan)
-        self._noise = read_spatial_noise(named_spatial_noise("none"), noise)
+        self._noise = SpatialNoise.of("none", noise)
         self._ticks = ticks
         robot = self.task.robot
         world = self.task.world

@@ -10,7 +10,6 @@ from ...family import Family
 
 if TYPE_CHECKING:
     from ...files import Document
-    from ...planning.problem.check import Check
 
 
 class Spatial(Family):
@@ -22,6 +21,7 @@ class Spatial(Family):
     starters = MappingProxyType({"world": "clamber.families.spatial.cli.new_world:world"})
     parts = MappingProxyType(
         {
+            "checks": "clamber.families.spatial.planning.checks:SPATIAL_CHECKS",
             "files": "clamber.families.spatial.planning.task:FILES",
             "plans": "clamber.families.spatial.planning.plans:PLANS",
             "relaxations": "clamber.families.spatial.planning.relaxations:spatial_relaxations",
@@ -36,13 +36,6 @@ class Spatial(Family):
             "first_task": "clamber.families.spatial.planning.first_task:first_task",
         }
     )
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """Of its stances and actions, without all that plans need."""
-        from .planning.checks import SPATIAL_CHECKS
-
-        return SPATIAL_CHECKS
 
     def whole_robot(self, document: Document) -> Document:
         """With what statics needs of the model file and of the contacts."""

@@ -6,8 +6,8 @@ from typing import Final
 
 import numpy as np
 
-from ...inspection.finding import FileKind, Finding, Inspection
-from ...shown_units import SI, ShownUnits, Unit
+from ...inspection.finding import FileKind, Finding, Inspection, nearest, span_words
+from ...shown_units import SI, ShownUnits
 from ...types import Floats
 from ...units import DEGREE, GRAVITY
 from .pictures.obstacles import distances
@@ -32,12 +32,6 @@ NAMED: Final = 5
 """So many things are named, the others counted."""
 
 
-def _span(values: Floats, shown: Unit) -> str:
-    unit, size, _ = shown
-    low, high = float(values.min()) / size, float(values.max()) / size
-    return f"{low:.4g} {unit}" if high - low < 1e-9 else f"{low:.4g} to {high:.4g} {unit}"
-
-
 def _many(names: list[str]) -> str:
     return ", ".join(names[:NAMED]) + (f" and {len(names) - NAMED} more" if len(names) > NAMED else "")
 
@@ -52,11 +46,11 @@ def inspect_robot(robot: SpatialRobot, units: ShownUnits = SI) -> Finding:
         "family": "robot in space",
         "limbs": ", ".join(f"{name} ({contact.kind}, {joints} joints)" for name, contact, joints in limbs),
         "mass": f"{chains.total_mass:.4g} kg, {chains.base_mass:.4g} kg of it the base's",
-        "limbs reach": f"{_span(lengths, units.place)} from their first joints",
+        "limbs reach": f"{span_words(lengths.tolist(), units.place)} from their first joints",
         "model": robot.spec.model,
     }
     if turning.any():
-        facts["joint torque"] = _span(chains.torque[turning], units.torque)
+        facts["joint torque"] = span_words(chains.torque[turning].tolist(), units.torque)
     return Finding(kind="robot", name=robot.name, title=robot.title, facts=facts, odd=tuple(_odd_robot(robot, units)))
 
 
@@ -114,16 +108,8 @@ def inspect_world(world: World, units: ShownUnits = SI) -> Finding:
         grains = ", ".join(units.length(field.grain) for field in world.fields)
         facts["terrain"] = f"{len(world.fields)} solid, distances from it every {grains}"
     if len(world.holds) > 1:
-        facts["nearest two"] = units.length(float(_nearest(world).min()))
+        facts["nearest two"] = units.length(float(nearest(world.places).min()))
     return Finding(kind="world", name=world.name, title=world.title, facts=facts, odd=tuple(_odd_world(world, units)))
-
-
-def _nearest(world: World) -> Floats:
-    """Distance of each hold from the one nearest to it [m], shape (n,)."""
-    from scipy.spatial import cKDTree  # takes a tenth of a second to import
-
-    away: Floats = cKDTree(world.places).query(world.places, k=2)[0][:, 1]
-    return away
 
 
 def _holds(which: Bools) -> str:
@@ -137,7 +123,7 @@ def _odd_world(world: World, units: ShownUnits) -> Iterator[str]:
         yield "no holds: no robot can stand here"
         return
     if len(world.holds) > 2:
-        away = _nearest(world)
+        away = nearest(world.places)
         usual = float(np.median(away))
         alone = away > ALONE * usual
         if alone.any():

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Final, TypeAlias
 from ...execution.fault import check_faults
 from ...json_form import INLINE
 from ...planning.problem.plan import Plan
-from ...trials.dynamics import Conditions, Dynamics, NoPlanError, RunEvents, RunRequest, TrialsRequest, search_to_run
+from ...trials.dynamics import Conditions, Dynamics, RunEvents, RunRequest, TrialsRequest, plan_to_run
 from .planning import Walk
 from .planning.task import WalkerTask
-from .trials.noise import WalkNoise, named_walk_noise, read_walk_noise
+from .trials.noise import WalkNoise
 from .trials.planned import careful, lay_plan, walk_of
 from .trials.run_walk import WalkRun, run_walk, step_told, walk_flaws
 from .trials.trials import WalkSetup, WalkTrial, WalkTrials, failing_of
@@ -57,7 +57,7 @@ class WalkerDynamics(Dynamics):
     def check(self, work: Work, asked: Conditions) -> None:
         """Plant, noise and faults."""
         walk_flaws(_walk_of(work), asked.plant)
-        _noise(asked)
+        WalkNoise.of(asked.noise_set, asked.noise)
         if isinstance(asked, TrialsRequest):
             check_faults(asked.faults, failing_of(work.robot).kinds)
 
@@ -75,7 +75,7 @@ class WalkerDynamics(Dynamics):
         run = run_walk(
             walk,
             walk_flaws(walk, asked.plant),
-            noise=_noise(asked),
+            noise=WalkNoise.of(asked.noise_set, asked.noise),
             seed=asked.seed,
             lay=lay,
             log=asked.log,
@@ -99,7 +99,7 @@ class WalkerDynamics(Dynamics):
         label: str = "plan",
     ) -> WalkSetup:
         """What all walks have in common."""
-        noise = _noise(asked)
+        noise = WalkNoise.of(asked.noise_set, asked.noise)
         if isinstance(work, Walk):
             return WalkSetup(work, noise, asked.plant, faults=asked.faults)
         task = work if plan is not None else careful(work)
@@ -136,16 +136,7 @@ def _planned(
 
 
 def _found(task: WalkerTask, asked: Conditions, events: RunEvents, seed: int) -> Plan:
-    result = search_to_run(task, asked.planner, asked, events, seed)
-    if not result.has_plan:
-        raise NoPlanError(asked.planner, task.name, f"that can bear to be walked: {result.reason}")
-    return result.plan
-
-
-def _noise(asked: Conditions) -> WalkNoise:
-    """Widths: of trials the usual ones, of one run none, but for those that are named."""
-    base = "usual" if isinstance(asked, TrialsRequest) else "none"
-    return read_walk_noise(named_walk_noise(base), asked.noise)
+    return plan_to_run(task, asked, events, seed, "that can bear to be walked")
 
 
 DYNAMICS: Final = WalkerDynamics()

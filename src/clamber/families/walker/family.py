@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ...family import Family
-
-if TYPE_CHECKING:
-    from ...planning.problem.check import Check
 
 
 class Walker(Family):
@@ -27,6 +24,7 @@ class Walker(Family):
     )
     parts = MappingProxyType(
         {
+            "checks": "clamber.families.walker.statics.checks:WALKER_CHECKS",
             "files": "clamber.families.walker.planning.task:FILES",
             "plans": "clamber.families.walker.planning.plans:PLANS",
             "relaxations": "clamber.families.walker.planning.relaxations:walker_relaxations",
@@ -39,13 +37,6 @@ class Walker(Family):
             "model": "clamber.families.walker.sim.walker_model:lone_walker",
         }
     )
-
-    @property
-    def checks(self) -> tuple[Check, ...]:
-        """Of its stances, without all that plans need."""
-        from .statics.checks import WALKER_CHECKS
-
-        return WALKER_CHECKS
 
     def other_work(self, name_or_path: str, overrides: Sequence[str] = ()) -> Any | None:
         """Walks."""

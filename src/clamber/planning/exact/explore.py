@@ -4,12 +4,13 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from ...interrupts import Interruptible
 from ...types import Ints
+from ..problem.arrays import with_room
 from ..problem.problem import CompiledProblem
 from ..progress import Clock
 from ..stance_table import rehash, scratch_for, table_size
@@ -54,11 +55,11 @@ class Memory:
         state = self.state[0]
         done = False
         if state["labels"] + branching > len(self.labels) and len(self.labels) < LABELS_PER_STANCE * self.most:
-            self.labels = _longer(self.labels, min(LABELS_PER_STANCE * self.most, 2 * len(self.labels)))
+            self.labels = with_room(self.labels, min(LABELS_PER_STANCE * self.most, 2 * len(self.labels)))
             done = True
         if state["nodes"] + branching > len(self.keys) and len(self.keys) < self.most:
             room = min(self.most, 2 * len(self.keys))
-            self.keys, self.nodes = _longer(self.keys, room), _longer(self.nodes, room)
+            self.keys, self.nodes = with_room(self.keys, room), with_room(self.nodes, room)
             self.table = self._table()
             done = True
         return done
@@ -80,12 +81,6 @@ class Memory:
     def label_of(self, node: int) -> int:
         """A label of a stance: the first one made, which is no worse a way to be there than any other for who only looks."""
         return int(np.argmax(self.labels["node"][: int(self.state["labels"][0])] == node))
-
-
-def _longer(old: Any, room: int) -> Any:
-    new = np.zeros((room, *old.shape[1:]), old.dtype)
-    new[: len(old)] = old
-    return new
 
 
 FIRST_QUOTA: Final = 64

@@ -1,4 +1,4 @@
-"""The genetic search over any `Problem`: generations of plans until one reaches the goal (thesis 2.2.3, and what makes it strong)."""
+"""The genetic search over any problem: generations of plans until one reaches the goal (thesis 2.2.3, and what makes it strong)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field

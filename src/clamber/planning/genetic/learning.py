@@ -48,7 +48,7 @@ def learn(problem: CompiledProblem, codes: Genes, *, most: int = 1) -> list[Macr
 
     Args:
         problem: The task.
-        codes: A plan, in codes that are relative ("nearest", not a named hold; see `Problem.relative`).
+        codes: A plan, in codes that are relative ("nearest", not a named hold; see `CompiledProblem.relative`).
         most: How many macros to give.
 
     Returns:

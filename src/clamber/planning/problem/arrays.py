@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +11,13 @@ from ...errors import SpecError
 from ...types import Floats
 
 AnyArray = npt.NDArray[np.generic]
+
+
+def with_room(old: Any, capacity: int) -> Any:
+    """A longer array that begins like another, shape (capacity, ...)."""
+    new = np.zeros((capacity, *old.shape[1:]), old.dtype)
+    new[: len(old)] = old
+    return new
 
 
 class Params:

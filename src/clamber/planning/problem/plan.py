@@ -78,7 +78,7 @@ class Plan(Pictured):
         )
 
     def codes(self, task: Task, label: str = "plan") -> Ints:
-        """Packed codes for `Problem.replay`; every grab names its hold.
+        """Packed codes for `CompiledProblem.replay`; every grab names its hold.
 
         Args:
             task: The task to carry the plan out in, its own or another.

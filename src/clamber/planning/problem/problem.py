@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Final, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,10 @@ from .code_limits import CodeLimits, indices
 from .loops import expand, expand_scored, features_of, possible, replay, rollout
 
 MAX_FEATURES = 8
+FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
+"""Features of actions that the families here measure, so that one profile's weights fit all."""
+FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
+"""How each of them adds up over a plan: 0 the last, 1 the sum, 2 the largest."""
 PIECES = 8
 """Most pieces of a batch that one thread takes."""
 LEAST_PIECE = 64
@@ -72,38 +76,8 @@ class Beam:
     """Most stances that windows about the plan may see afterwards."""
 
 
-class Problem(Protocol):
-    """A task that planners can work on, whatever the robot; a worker rebuilds it from the task's text."""
-
-    start: Records
-    """Start stance, array of one record."""
-    actions: ActionTable
-    checks: tuple[str, ...]
-    """Names of the checks, in the order of `Replay.margins` and of reasons."""
-    features: tuple[str, ...]
-    """Names of the features that weights apply to."""
-
-    def rollout(
-        self, genes: npt.NDArray[np.int32], lengths: npt.NDArray[np.int32], weights: Floats, limit: int
-    ) -> Records:
-        """Carry out many plans; records of `ROLLOUT`."""
-        ...
-
-    def replay(self, codes: Sequence[int] | npt.NDArray[np.int32], *, go_on: bool = False) -> Replay:
-        """Carry out one plan, keeping every stance and margin."""
-        ...
-
-    def expand(self, stances: Records) -> Children:
-        """Every valid child of every stance."""
-        ...
-
-    def is_done(self, stance: Records) -> bool:
-        """Whether a stance (array of one record) has met every goal."""
-        ...
-
-
 class CompiledProblem:
-    """A `Problem` whose family is a set of kernels: the loops of `actions.loops`, spread over threads.
+    """A task that planners can work on, its family a set of kernels: the loops of `loops.py`, spread over threads.
 
     The answer does not depend on the number of threads: every plan is carried out alone. Kernels take codes and indices as they are, and
     one that does not exist would make them use memory that is not theirs; so whatever is handed in is looked at here first.
@@ -295,8 +269,12 @@ class CompiledProblem:
 
     def with_rules(self, **fields: int) -> Self:
         """The same problem with some fields of its parameters changed; it works on one thread."""
+        return self._with_params(self.params.with_fields(**fields))
+
+    def _with_params(self, params: Params) -> Self:
+        """The same problem with other parameters, on one thread."""
         other = copy.copy(self)
-        other.params = self.params.with_fields(**fields)
+        other.params = params
         other.threads, other._pool, other._kept = 1, None, []
         other._scratch = [other._make_scratch()]
         return other
@@ -378,11 +356,12 @@ class CompiledProblem:
     @property
     def way(self) -> float:
         """The feature `body` of a stance that has met every goal [m]."""
-        raise NotImplementedError
+        last = self.params.array("goals")[-1]
+        return float(last["before"] + last["way"])
 
     def is_done(self, stance: Records) -> bool:
         """Whether a stance (array of one record) has met every goal."""
-        raise NotImplementedError
+        return bool(stance["stage"][0] >= self.goals)
 
     def without_goals(self) -> tuple[Params, Records]:
         """Parameters and start of a robot that has every goal behind it: stances differ by where they are alone."""

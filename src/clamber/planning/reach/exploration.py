@@ -9,6 +9,7 @@ from typing import Final
 import numpy as np
 
 from ...interrupts import Interruptible
+from ..problem.arrays import with_room
 from ..problem.body_pose import PoseLattice
 from ..problem.problem import CompiledProblem, Records
 from ..problem.problems import Normalisation
@@ -47,13 +48,9 @@ class Store:
 
     def grow(self, capacity: int, used: int) -> None:
         """Make room for `capacity` keys and keep the first `used`."""
-        keys = np.zeros((capacity, self.keys.shape[1]), np.int64)
-        keys[:used] = self.keys[:used]
-        self.keys = keys
+        self.keys = with_room(self.keys, capacity)
         if self.rows is not None:
-            rows = np.zeros(capacity, self.rows.dtype)
-            rows[:used] = self.rows[:used]
-            self.rows = rows
+            self.rows = with_room(self.rows, capacity)
         self.table = np.full(table_size(capacity), -1, np.int32)
         rehash(self.keys, used, self.table)
 

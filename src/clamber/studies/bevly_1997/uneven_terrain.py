@@ -12,7 +12,7 @@ from ...execution.sequencer import Sequencer
 from ...families.climber.execution.climbing import Climbing
 from ...families.climber.execution.executable_plan import climbable, lay_course
 from ...families.climber.planning.task import LimbedTask
-from ...families.climber.trials.noise import NO_NOISE, draw_for, read_noise, true_places
+from ...families.climber.trials.noise import Noise, draw_for, true_places
 from ...families.climber.trials.plants import drawn_plant
 from ...families.climber.trials.run_plan import believing_climber, climbing_flaws
 from ...families.climber.trials.trial import ClimbTrial, TrialSetup
@@ -63,7 +63,7 @@ def climb_uneven() -> StudyResult:
     crew = LocalProcesses(os.cpu_count() or 1)
     told: dict[str, list[ClimbTrial]] = {}
     for name, texts in TERRAINS.items():
-        setup = TrialSetup(task=task, noise=read_noise(NO_NOISE, texts), plan=plan, replan=False)
+        setup = TrialSetup(task=task, noise=Noise.of("none", texts), plan=plan, replan=False)
         told[name] = sorted(run_trials(setup, SEEDS, executor=crew).ended, key=lambda trial: trial.seed)
         for trial in told[name]:
             if trial.outcome == ERROR:  # it says nothing of climbing
@@ -109,16 +109,16 @@ def climb_uneven() -> StudyResult:
 
 def _climbs_alone(task: LimbedTask, plan: Plan, texts: tuple[str, ...], seed: int) -> bool:
     """Whether a climb is done by a control whose map takes each peg to be off by itself."""
-    drawn = draw_for(task, read_noise(NO_NOISE, texts), seed)
+    drawn = draw_for(task, Noise.of("none", texts), seed)
     plant = drawn_plant(task, climbing_flaws(task, ()), drawn)
-    climber = believing_climber(task, plant, read_noise(NO_NOISE, ALONE), drawn)
+    climber = believing_climber(task, plant, Noise.of("none", ALONE), drawn)
     return Sequencer(Climbing(climber, lay_course(task, plan))).run().done
 
 
 def _displaced(texts: tuple[str, ...], seed: int) -> float:
     """Largest distance of a peg that the plan takes from where it is mapped [m]."""
     task = limbed_task("ladder")
-    off: Floats = true_places(task, draw_for(task, read_noise(NO_NOISE, texts), seed)) - task.world.positions()
+    off: Floats = true_places(task, draw_for(task, Noise.of("none", texts), seed)) - task.world.positions()
     taken = np.array([hold.number <= 2 * RUNGS + 4 for hold in task.world.holds])
     return float(np.linalg.norm(off[taken], axis=1).max())
 

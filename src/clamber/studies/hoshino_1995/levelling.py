@@ -14,7 +14,7 @@ from ...families.walker.pictures.walk_plots import Tilts, draw_directions, draw_
 from ...families.walker.planning import load_walk
 from ...families.walker.sim.walker_flaws import Inclinometers, WalkerFlaws
 from ...families.walker.sim.walker_plant import WalkerSim
-from ...families.walker.trials.noise import WalkNoise, named_walk_noise
+from ...families.walker.trials.noise import WalkNoise
 from ...families.walker.trials.run_walk import WalkRun
 from ...types import Floats
 from ...units import DEGREE
@@ -211,7 +211,7 @@ SETTLE: Final = PHASES.index("settle")
 
 def walk_level() -> StudyResult:
     """Up, across and down with everything as noisy as usual; and the same walks with the plate left parallel to the slope."""
-    level = {name: _walk(uphill, named_walk_noise("usual")) for name, uphill in WAYS.items()}
+    level = {name: _walk(uphill, WalkNoise.of("usual")) for name, uphill in WAYS.items()}
     tilted = {name: _walk(uphill, known_noise(), "level=false", "start.plate=ground") for name, uphill in WAYS.items()}
     ends = all(run.done for run in level.values())
     rests = max(_at_rest(run) for run in level.values())

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from ...families.walker.planning import load_walk
 from ...families.walker.robot import WalkerRobot
 from ...families.walker.robot.robot import build_walker
-from ...families.walker.trials.noise import WalkNoise, named_walk_noise, read_walk_noise
+from ...families.walker.trials.noise import WalkNoise
 from ...families.walker.trials.run_walk import WalkRun, run_walk, walk_flaws
 from ...tasks.robots import read_robot
 
@@ -22,7 +22,7 @@ def hoshino() -> WalkerRobot:
 
 def known_noise() -> WalkNoise:
     """The usual noise but for the inclinometers' offset, which is known."""
-    return read_walk_noise(named_walk_noise("usual"), ("inclinometer_offset=0deg",))
+    return WalkNoise.of("usual", ("inclinometer_offset=0deg",))
 
 
 def run_changed(name: str, changes: Sequence[str], noise: WalkNoise, seed: int = 0) -> WalkRun:

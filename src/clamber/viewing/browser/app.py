@@ -16,11 +16,10 @@ from ...planning.problem.plan import Plan
 from ...tasks.task_format import task_files
 from .. import style
 from ..scene import join
-from .camera_panel import CameraPanel
+from .camera_panel import CameraPanel, RecordingPanel, file_name
 from .inputs import by_hand, readable, set_input
 from .own_pages import Guard, UnguardedError, check_guarded, guarded
 from .playback import Playback
-from .recording import RecordingPanel, file_name
 from .save_panel import SavePanel
 from .scene_view import SceneView
 from .solids import FOV, Camera, colour

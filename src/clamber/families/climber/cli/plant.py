@@ -139,12 +139,12 @@ def _server_of(
     chosen: "LimbedTask", for_plant: list[str], words: ServeOptions
 ) -> "Callable[[socket.socket], PlantServer]":
     """What serves the task's robot at a listener, drawn before anyone can connect."""
-    from ..trials.noise import NO_NOISE, check_noise, draw_for, read_noise
+    from ..trials.noise import Noise, check_noise, draw_for
     from ..trials.plants import climb_server, drawn_plant
     from ..trials.run_plan import climbing_flaws
 
     flaws = climbing_flaws(chosen, for_plant)
-    deviations = read_noise(NO_NOISE, words.noise or ())
+    deviations = Noise.of("none", words.noise or ())
     check_noise(deviations, chosen.robot, flaws)
     moved = drawn_plant(chosen, flaws, draw_for(chosen, deviations, words.seed))
 

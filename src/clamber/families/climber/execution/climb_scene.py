@@ -6,17 +6,13 @@ from typing import Final
 
 import numpy as np
 
-from ....execution.log_scene import WORLD, Frame, LoggedScene, Shape, Turn, rod
+from ....execution.log_scene import BODY, HOLD, LIMBS, WORLD, Frame, LoggedScene, Shape, Turn, ball, rod
 from ....execution.sample_log import columns_of
 from ....types import Floats
 from ..planning.task import LimbedTask
 from .climb_trace import climb_titles
 
 WALL: Final = "#EEF0F3"
-PEG: Final = "#8A8F98"
-BODY: Final = "#9FADBA"
-LIMBS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#6A3D9A", "#7F6A00")
-"""Colours of limbs, in their order."""
 OUT: Final = 5.0
 """How far in front of the wall the robot moves, in radii of a link [-]."""
 THICK: Final = 0.03
@@ -72,7 +68,7 @@ def _wall(task: LimbedTask) -> list[Shape]:
 
 
 def _peg(x: float, y: float, radius: float, back: float) -> Shape:
-    return rod(np.array((x, back, y)), np.array((x, -back, y)), radius, PEG)
+    return rod(np.array((x, back, y)), np.array((x, -back, y)), radius, HOLD)
 
 
 def _robot(task: LimbedTask) -> dict[str, Sequence[Shape]]:
@@ -83,15 +79,11 @@ def _robot(task: LimbedTask) -> dict[str, Sequence[Shape]]:
         for here, there in zip(ports, np.roll(ports, -1, axis=0), strict=True)
         if (here != there).any()
     ]
-    shapes: dict[str, Sequence[Shape]] = {"body": [*body, _ball(3.0 * r, BODY)]}
+    shapes: dict[str, Sequence[Shape]] = {"body": [*body, ball(3.0 * r, BODY)]}
     for k, limb in enumerate(robot.limbs):
         shade, none, tip = LIMBS[k % len(LIMBS)], np.zeros(3), limb.second_link
         end = np.array((tip.real, 0.0, tip.imag))
-        shapes[f"{limb.name} upper link"] = [_ball(1.6 * r, shade), rod(none, np.array((limb.l1, 0.0, 0.0)), r, shade)]
-        shapes[f"{limb.name} lower link"] = [_ball(1.6 * r, shade), rod(none, end, r, shade)]
-        shapes[f"{limb.name} tip"] = [_ball(1.3 * r, shade)]
+        shapes[f"{limb.name} upper link"] = [ball(1.6 * r, shade), rod(none, np.array((limb.l1, 0.0, 0.0)), r, shade)]
+        shapes[f"{limb.name} lower link"] = [ball(1.6 * r, shade), rod(none, end, r, shade)]
+        shapes[f"{limb.name} tip"] = [ball(1.3 * r, shade)]
     return shapes
-
-
-def _ball(radius: float, shade: str) -> Shape:
-    return Shape("spheres", (0.0, 0.0, 0.0), (2 * radius,) * 3, shade)

@@ -240,12 +240,12 @@ class ClimberArtists:
 
     @property
     def artists(self) -> list[Artist]:
-        """All artists, from back to front."""
+        """See `Robot`."""
         every = [self.body, self.up, *self.links, *self.grips, *self.rings, *self.joints, *self.arrows, *self.numbers]
         return sorted(every, key=lambda artist: artist.get_zorder())
 
     def update(self, at: Snapshot) -> None:
-        """Put every artist where a snapshot has it."""
+        """See `Robot`."""
         posture = at.posture
         self.body.set_xy(posture.outline)
         size = 0.5 * float(np.ptp(posture.outline, axis=0).min())

@@ -256,7 +256,7 @@ class ClimbView(PlanView[Snapshot]):
         return ClimberArtists(picture.wall, self.task, self.bounds)
 
     def settled(self, step: int) -> Snapshot:
-        """The stance after a step; 0 is the start."""
+        """See `View`."""
         return self.settles[step]
 
     def motion(self, step: int) -> list[Part[Snapshot]]:

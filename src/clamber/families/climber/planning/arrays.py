@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ....planning.problem.arrays import Params
 from ....planning.problem.check import TICKS
-from ....planning.problem.problem import Records
+from ....planning.problem.problem import FEATURE_KINDS, Records
 from ..robot.robot import Limb
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.many import work_size
@@ -18,8 +18,6 @@ from .keys import ANY_HOLD
 from .task import Goal, LimbedTask
 
 CHECKS: Final = tuple(check.name for check in LIMBED_CHECKS)
-FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
-"""How each feature adds up over a plan: 0 the last, 1 the sum, 2 the largest."""
 FORCE_RULES: Final = ("thesis", "min_torque", "min_norm")
 ANY_DIRECTION: Final = -2.0
 CROWD: Final = 2.0
@@ -214,16 +212,11 @@ def _steps_between(first: np.void, second: np.void, stride: float) -> int:
 
 
 def _middle(goal: Goal, start: tuple[float, float]) -> tuple[float, float]:
-    """The place that stands for a goal when ways are added up: nearest in open directions, the middle of closed ones."""
+    """The place that stands for a goal when ways are added up: the middle of its region, or of its box (`GoalBox.middle`)."""
     if goal.region is not None:
         corners = np.array(goal.region)
         return float(corners[:, 0].mean()), float(corners[:, 1].mean())
-    x_min, x_max, y_min, y_max = goal.box
-    place = []
-    for lower, upper, at in ((x_min, x_max, start[0]), (y_min, y_max, start[1])):
-        closed = math.isfinite(lower) and math.isfinite(upper)
-        place.append(0.5 * (lower + upper) if closed else min(max(at, lower), upper))
-    return place[0], place[1]
+    return goal.middle(start)
 
 
 def _grid(

@@ -3,7 +3,7 @@
 import math
 
 from ....compiled import inlined, kernel
-from ....plane import TWO_PI, inside, point_segment, wrap
+from ....plane import TWO_PI, edge_distance, inside, wrap
 from ..statics.pose import count_holders, tip_of
 from ..statics.records import goals, holds, vertices
 
@@ -22,17 +22,6 @@ def advance(p, s):
 def swept(p, s):
     """Angle that the origin has swept about the task's centre since the start [rad]."""
     return TWO_PI * s.laps + s.bearing - p.centre_angle
-
-
-@inlined
-def edge_distance(x, y, polygon):
-    """Distance of a point from the nearest edge of a polygon, shape (n, 2) [m]."""
-    near = math.inf
-    j = polygon.shape[0] - 1
-    for i in range(polygon.shape[0]):
-        near = min(near, point_segment(x, y, polygon[j, 0], polygon[j, 1], polygon[i, 0], polygon[i, 1]))
-        j = i
-    return near
 
 
 @inlined

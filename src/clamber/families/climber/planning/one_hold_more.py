@@ -1,33 +1,20 @@
-"""One hold more, and where: places on a lattice, each settled by exact search on the board with a hold there.
-
-A plan that the added hold opens must grab it, for without that it would be a plan on the board as it is. Until its first grab only
-stances are passed that can be reached as it is. So only places count that lie in some limb's reach from some pose that can be reached.
-"""
+"""One hold more, and where: places on a lattice of the board, each settled by exact search (`planning/infeasibility/places.py`)."""
 
 import math
 from collections.abc import Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
-from functools import partial
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
-from ....interrupts import answer
-from ....kernel_cache import is_compiled
-from ....planning.infeasibility.find import FeasibleRelaxation, Places
-from ....planning.infeasibility.trial import Answer, Trial
-from ....planning.problem.problems import normalisation_of, plan_family, pose_problem
-from ....planning.reach.exploration import explore_breadth_first
+from ....planning.infeasibility.find import Places
+from ....planning.infeasibility.places import PER_LIMB, opening, reached_poses, settle_each, smallest_radius
+from ....planning.infeasibility.trial import Trial
+from ....planning.problem.problems import pose_problem
 from ....toml_text import toml_value
 from ....types import Floats
 from ....units import UNITS, split_quantity
 from .task import LimbedTask
-
-PER_LIMB: Final = 4
-"""Unless told otherwise, the lattice is as wide as the shortest limb over this, in whole steps of the task."""
-SHARE: Final = 0.25
-"""Of the time, at most this much goes into seeing every pose that can be reached [-]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,41 +43,28 @@ def find_places(
     step = task.step.length
     quarter = min(limb.length for limb in task.robot.limbs) / PER_LIMB
     wide = max(1, round(quarter / step)) * step if spacing is None else spacing
-    trial.grant(SHARE)
-    reached = _reached(task, trial, threads)
+    reached = reached_poses(trial, pose_problem(task, threads=1).problem, threads)
     if reached is None:
         return None, trial.stopped.is_set()
     sites = sorted(
         _sites(task, reached, wide), key=lambda site: (math.hypot(site.x - near[0], site.y - near[1]), site.row, site.column)
     )  # fmt: skip
     trial.grant(1.0)
-    answers, interrupted = _settle(trial, task, sites, threads)
-    opened = [(site, answer) for site, answer in answers if answer.status == "open"]
-    settled = sum(answer.status != "unsettled" for _, answer in answers)
-    found = {(site.column, site.row) for site, _ in opened}
-    ranked = sorted(opened, key=lambda item: (len(item[1].codes), -_company(item[0], found)))
-    openings = tuple(_opening(task, site, answer) for site, answer in ranked)
-    return Places(openings=openings, spacing=wide, places=len(sites), tried=settled), interrupted
-
-
-def _reached(task: LimbedTask, trial: Trial, threads: int) -> Floats | None:
-    """Poses of the body that can be reached: x, y [m], angle [rad], shape (n, 3); None if they were not all seen."""
-    problem = pose_problem(task, threads=1).problem
-    lattice = plan_family(task).lattice(task, problem)
-    see = partial(
-        explore_breadth_first, problem, normalisation_of(task), lattice, holds=len(task.world.holds), threads=threads
+    overrides = [_override(task, site) for site in sites]
+    answers = settle_each(trial, overrides, threads)
+    opened = [
+        (site, override, answer)
+        for site, override, answer in zip(sites, overrides, answers, strict=False)
+        if answer.status == "open"
+    ]
+    found = {(site.column, site.row) for site, _, _ in opened}
+    opened.sort(key=lambda item: (len(item[2].codes), -_company(item[0], found)))
+    openings = tuple(
+        opening("board.added", f"at {', '.join(_written(task, site))}", override, answer)
+        for site, override, answer in opened
     )
-    if not is_compiled("spread"):  # compiling is not to count
-        see(most_stances=2 * problem.branching)
-        trial.grant(SHARE)
-    seen = see(most_stances=trial.max_stances, seconds=trial.granted())
-    if seen.ended == "interrupt":
-        trial.stopped.set()
-    if seen.ended:
-        return None
-    steps = seen.poses[seen.notes["stances"] > 0]
-    poses: Floats = lattice.origin + steps * lattice.step
-    return poses
+    settled = sum(answer.status != "unsettled" for answer in answers)
+    return Places(openings=openings, spacing=wide, places=len(sites), tried=settled), trial.stopped.is_set()
 
 
 def _sites(task: LimbedTask, poses: Floats, wide: float) -> Iterator[_Site]:
@@ -114,28 +88,11 @@ def _sites(task: LimbedTask, poses: Floats, wide: float) -> Iterator[_Site]:
         points = np.array((task.start.x, task.start.y)) + wide * lattice
         away, _ = cKDTree(np.unique(np.round(ports, 9), axis=0)).query(points)
         found |= {(int(column), int(row)) for column, row in lattice[away <= reach]}
-    radius = _radius(task)
+    radius = smallest_radius(task)
     for column, row in sorted(found):
         x, y = task.start.x + column * wide, task.start.y + row * wide
         if all(math.hypot(hold.x - x, hold.y - y) >= hold.radius + radius for hold in task.world.holds):
             yield _Site(column, row, x, y)
-
-
-def _settle(
-    trial: Trial, task: LimbedTask, sites: list[_Site], threads: int
-) -> tuple[list[tuple[_Site, Answer]], bool]:
-    """The answer for each place, in order, and whether Ctrl-C came first."""
-    answers: list[tuple[_Site, Answer]] = []
-    with ThreadPoolExecutor(threads, thread_name_prefix="clamber") as pool:
-        asked: list[Future[Answer]] = [pool.submit(trial.settle, (_override(task, site),), threads) for site in sites]
-        try:
-            for site, future in zip(sites, asked, strict=True):
-                answers.append((site, future.result()))
-        except KeyboardInterrupt:
-            answer()
-            trial.stopped.set()
-            pool.shutdown(cancel_futures=True)
-    return answers, trial.stopped.is_set()
 
 
 def _override(task: LimbedTask, site: _Site) -> str:
@@ -144,7 +101,7 @@ def _override(task: LimbedTask, site: _Site) -> str:
     x, y = _written(task, site)
     hold = {"number": 1 + max(hold.number for hold in task.world.holds), "x": x, "y": y}
     if raw.get("hold_radius") is None:
-        hold["radius"] = f"{_radius(task):.10g} m"
+        hold["radius"] = f"{smallest_radius(task):.10g} m"
     return f"board.added={toml_value([*raw.get('added', []), hold])}"
 
 
@@ -162,25 +119,6 @@ def _unit(task: LimbedTask) -> str:
     return unit if unit in UNITS["length"] else "m"
 
 
-def _radius(task: LimbedTask) -> float:
-    """Radius of the added hold [m]: that of the smallest there is."""
-    return min(hold.radius for hold in task.world.holds)
-
-
 def _company(site: _Site, found: set[tuple[int, int]]) -> int:
     """How many places beside it open the task, too."""
     return sum((site.column + i, site.row + j) in found for i in (-1, 0, 1) for j in (-1, 0, 1))
-
-
-def _opening(task: LimbedTask, site: _Site, answer: Answer) -> FeasibleRelaxation:
-    x, y = _written(task, site)
-    return FeasibleRelaxation(
-        key="board.added",
-        before=None,
-        after=f"at {x}, {y}",
-        unit="",
-        overrides=(_override(task, site),),
-        length=len(answer.codes),
-        shortest=answer.shortest,
-        least=True,
-    )

@@ -36,7 +36,7 @@ class LimbedPlans(PlanFamily):
         return Posed(LimbedProblem(task, inventory.table(), threads=threads), inventory.full_size, inventory.dropped)
 
     def limits(self, task: LimbedTask) -> CodeLimits:
-        """The codes that are actions of a task, and the indices that its stances may have."""
+        """See `PlanFamily`."""
         return limbed_limits(task)
 
     def without_hangs(self, task: LimbedTask) -> LimbedTask:
@@ -57,13 +57,9 @@ class LimbedPlans(PlanFamily):
         return sizes
 
     def problem(self, task: LimbedTask) -> LimbedProblem:
-        """The task with every check evaluated, for replays."""
+        """See `PlanFamily`."""
         table = ActionTable.build([("none", [pack(NONE)], False)])
         return LimbedProblem(task, table, every_check=True, threads=1)
-
-    def hard(self, task: LimbedTask) -> tuple[str, ...]:
-        """Names of the checks that forbid an action."""
-        return task.rules.hard
 
     def action(self, task: LimbedTask, code: int, after: np.void, gene: str | None) -> PlannedAction:
         """A packed code as a named action, with the hold that `after`, the stance it led to, says was taken."""
@@ -121,7 +117,7 @@ class LimbedPlans(PlanFamily):
         return {name: task.world.holds[int(h)].number if h >= 0 else 0 for name, h in indices}
 
     def taken(self, task: LimbedTask, stance: np.void) -> int | None:
-        """Number of the hold that the last action took, None if it took none."""
+        """See `PlanFamily`."""
         index = int(stance["resolved"])
         return None if index < 0 else task.world.holds[index].number
 
@@ -155,7 +151,7 @@ class LimbedPlans(PlanFamily):
         return float(stance["torque"])
 
     def nearest(self, task: LimbedTask, problem: CompiledProblem, stances: Records, asked: Ints) -> list[int | None]:
-        """What each "nearest" among the codes `asked` takes from the stance before it: hold numbers, shape (n,)."""
+        """See `PlanFamily`."""
         found: list[int | None] = [None] * len(asked)
         for index in range(min(len(asked), len(stances) - 1)):
             if Code.of(int(asked[index])).kind == "nearest":

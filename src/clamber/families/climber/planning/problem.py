@@ -1,4 +1,4 @@
-"""The limbed climber's `Problem`, and the stance that its task starts from."""
+"""The limbed climber's `CompiledProblem`, and the stance that its task starts from."""
 
 import copy
 import math
@@ -16,7 +16,7 @@ from ....planning.problem.codes import ARGUMENT_MASK, MOVE, NEAREST, NONE, RANDO
 from ....planning.problem.codes import HOLD as HOLD_KIND
 from ....planning.problem.family_kernels import family_kernels
 from ....planning.problem.loops import replay
-from ....planning.problem.problem import CompiledProblem, Records
+from ....planning.problem.problem import FEATURE_NAMES, CompiledProblem, Records
 from ....shown_units import units_of
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
@@ -33,7 +33,6 @@ from .step import step
 from .symmetry import mirrored_code, with_mirror
 from .task import LimbedTask
 
-FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
 FOOT_CHECKS: Final = ("limb_limb", "limb_body", "limb_peg")
 
 family_kernels(
@@ -140,21 +139,11 @@ class LimbedProblem(CompiledProblem):
         """Most actions from one stance: six moves, and per limb a release and every hold that can be in reach at once."""
         return 6 + sum(1 + most for most in most_in_reach(self.task))
 
-    @property
-    def way(self) -> float:
-        """The feature `body` of a stance that has met every goal [m]."""
-        last = self.params.array("goals")[-1]
-        return float(last["before"] + last["way"])
-
     def without_more_hangs(self, stance: Records) -> Self:
         """The same problem where no way may hang more often than the way to `stance` did, so that bodies stay on its lattice."""
         if "hangs" not in self.task.rules.hard:
             return self
         return self.with_rules(max_hangs=int(stance["hangs"][0]))
-
-    def is_done(self, stance: Records) -> bool:
-        """Whether a stance has met every goal."""
-        return bool(stance["stage"][0] >= len(self.task.goals))
 
     def without_goals(self) -> tuple[Params, Records]:
         """As in every family; laps aren't counted, or a ring would have no last stance."""

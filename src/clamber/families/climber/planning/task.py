@@ -1,7 +1,6 @@
 """The limbed climber's task: a robot on a board, where it starts, how it steps, what counts as allowed and as done."""
 
 import math
-from collections.abc import Mapping
 from dataclasses import field
 from typing import Annotated, Final, Literal
 
@@ -9,11 +8,11 @@ import numpy as np
 from pydantic import Field, StrictBool, StrictInt, StrictStr
 
 from ....errors import SpecError
-from ....notebook import Pictured
 from ....specs import Name, spec
 from ....tasks import Task
 from ....tasks.regions import GoalBox
-from ....types import Floats, Json
+from ....tasks.task_format import ReadTask
+from ....types import Floats
 from ....units import (
     INCH,
     Angle,
@@ -182,11 +181,9 @@ class TaskSpec:
 
 
 @spec
-class LimbedTask(Pictured):
+class LimbedTask(ReadTask):
     """A task with everything resolved: SI units, free limbs placed, point goals as boxes."""
 
-    name: str
-    title: str
     robot: LimbedRobot
     world: Board
     start: Start
@@ -195,10 +192,6 @@ class LimbedTask(Pictured):
     """Sub-goals in order, then the goal."""
     rules: Rules
     seed: int = 0
-    document: Json = field(default_factory=dict)
-    """Robot, board and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
-    hashes: Mapping[str, str] = field(default_factory=dict)
-    """"robot", "board", "task" -> SHA-256 of that part of `document`."""
 
 
 def limbed(task: Task, label: str) -> LimbedTask:

@@ -1,7 +1,6 @@
 """What a climb meets that nobody told its controller: ranges by name, and what a seed draws from them."""
 
 import math
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -9,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ....sim.limb_flaws import LimbFlaws
-from ....trials.noise import SETS, NoiseError, NoiseKind, read_widths
+from ....trials.noise import NoiseError, NoiseKind, NoiseWidths, stream_of
 from ....types import Floats, Ints, Json
 from ....units import DEGREE, GRAVITY
 from ..planning.task import LimbedTask
@@ -113,15 +112,11 @@ NOISE: Final[dict[str, NoiseKind]] = {
 inclinometer is off; hook friction: the 0.15 to 0.25 that are plausible. The rest as issue and thesis state it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Noise:
+class Noise(NoiseWidths):
     """A width for every key, either way, in SI."""
 
-    widths: Mapping[str, float]
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {key: self.widths[key] for key in NOISE}
+    __slots__ = ()
+    kinds = NOISE
 
     def words(self) -> str:
         """What deviates, in one line."""
@@ -129,27 +124,7 @@ class Noise:
         return ", ".join(told) or "none"
 
 
-def named_noise(name: str) -> Noise:
-    """A set of widths: "usual", or "none" of all."""
-    assert name in SETS
-    return Noise({key: kind.width if name == "usual" else 0.0 for key, kind in NOISE.items()})
-
-
-NO_NOISE: Final = named_noise("none")
-
-
-def read_noise(base: Noise, texts: Iterable[str]) -> Noise:
-    """`base` changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of it.
-
-    Raises:
-        NoiseError: If there is no such key, or its width cannot be.
-    """
-    return Noise(read_widths(NOISE, base.widths, texts))
-
-
-def noise_of(document: Json) -> Noise:
-    """The noise that `Noise.to_json` described."""
-    return Noise({key: float(document.get(key, 0.0)) for key in NOISE})
+NO_NOISE: Final = Noise.of("none")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -202,25 +177,20 @@ def draw(noise: Noise, robot: LimbedRobot, n_holds: int, seed: int) -> Drawn:
         seed: Of all draws.
     """
     n = len(robot.limbs)
-
-    def share(key: str, *shape: int) -> Floats:
-        stream = np.random.default_rng([seed, *key.encode()])
-        return noise.widths[key] * stream.uniform(-1.0, 1.0, shape)
-
     return Drawn(
         terrain=np.zeros((n_holds, 2)),
         missing=np.zeros(n_holds, np.bool_),
-        pegs=share("peg_error", n_holds, 2),
-        joint_friction=share("joint_friction", n, 2),
-        joint_angle=share("joint_angle", n, 2),
-        **{key: float(share(key)) for key, kind in NOISE.items() if not kind.many},
+        pegs=noise.share("peg_error", seed, n_holds, 2),
+        joint_friction=noise.share("joint_friction", seed, n, 2),
+        joint_angle=noise.share("joint_angle", seed, n, 2),
+        **{key: float(noise.share(key, seed)) for key, kind in NOISE.items() if not kind.many},
     )
 
 
 def draw_for(task: LimbedTask, noise: Noise, seed: int) -> Drawn:
     """What a seed makes of a noise for a task (`draw`), of its terrain, too: that needs to know where its holds are."""
     drawn = draw(noise, task.robot, len(task.world.holds), seed)
-    bent, gone = (np.random.default_rng([seed, *key.encode()]) for key in ("terrain", "missing"))
+    bent, gone = (stream_of(key, seed) for key in ("terrain", "missing"))
     lacking = may_be_missing(task) & (gone.uniform(size=len(task.world.holds)) < noise.widths["missing"])
     return replace(drawn, terrain=noise.widths["terrain"] * warp(task, bent), missing=lacking)
 

@@ -19,7 +19,7 @@ from ....trials.trial_runs import run_trials
 from ....trials.work import Work
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
-from .noise import named_noise, read_noise
+from .noise import Noise
 from .planning import grab_before
 from .planning_margins import PLANNING_MARGINS, steady
 from .rerouting import cut_before, grabs_of, other_end, repaired, without
@@ -236,9 +236,7 @@ def validate_plan(
     task = climbing_task(work.item)
     if work.plan is None:
         raise SpecError(work.label, "plan", "", "there is none; `clamber plan` makes one for a task")
-    setup = TrialSetup(
-        task=task, noise=read_noise(named_noise("usual"), noise), plan=work.plan, plant=work.plant, replan=False
-    )
+    setup = TrialSetup(task=task, noise=Noise.of("usual", noise), plan=work.plan, plant=work.plant, replan=False)
     climbs, went = climbs_with(with_plan(setup, label=work.label), executor, ended), list[Went]()
 
     def tell(best: ValidatedPlan, lesson: Lesson | None) -> None:

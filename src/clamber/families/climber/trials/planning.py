@@ -18,13 +18,13 @@ from ..execution.climb_report import ClimbReport
 from ..execution.climbing import Replan
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
-from .noise import NO_NOISE, Noise, read_noise
+from .noise import Noise
 from .planning_margins import PLANNING_MARGINS, PlanningMargins, steady, with_margins
 from .rerouting import repaired, without
 from .run_plan import action_told, run_plan
 from .stretch_repair import with_stretch_repaired
 
-VALIDATION_NOISE: Final = read_noise(NO_NOISE, ("peg_error=3mm",))
+VALIDATION_NOISE: Final = Noise.of("none", ("peg_error=3mm",))
 """What deviates in a rehearsal."""
 SEEDS: Final = (900_001, 900_002, 900_003)
 """Of its climbs: none that trials begin with."""

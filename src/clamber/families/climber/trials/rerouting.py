@@ -17,10 +17,10 @@ from ..execution.executable_plan import ExecutablePlan, lay_course
 from ..execution.remaining_task import task_from_here
 from ..execution.swing_feasibility import grabs_without_way
 from ..planning.task import LimbedTask
-from .noise import named_noise
+from .noise import Noise
 from .planning_margins import PlanningMargins, with_margins
 
-MAP_ERROR: Final = named_noise("usual").widths["peg_error"]
+MAP_ERROR: Final = Noise.of("usual").widths["peg_error"]
 """With which ways are looked for on paper [m]."""
 LONGER: Final = 1.5
 """Actions that another end may have, for each of the one before: looking for a much longer one takes longest and finds least [-]."""

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from operator import attrgetter
 from pathlib import Path
-from typing import Annotated, Final
+from typing import Annotated
 
 import numpy as np
 
-from ....execution.fault import Failing, Fault
+from ....execution.fault import FIRST_HOLDS, Failing, Fault
 from ....execution.faulty_plants import FaultyBody
 from ....execution.log_scene import LoggedScene
 from ....execution.log_stream import LogGap, WantedLog, growing_log
@@ -22,6 +22,7 @@ from ....planning.problem.plan import Plan
 from ....sim.flaw_texts import named_flaws, read_flaws
 from ....sim.limb_flaws import LimbFlaws
 from ....tasks import Task
+from ....trials.dynamics import TaskRun
 from ....types import Floats
 from ..execution.body_gains import USUAL, BodyGains
 from ..execution.climb_report import ClimbReport
@@ -34,18 +35,13 @@ from .noise import NO_NOISE, Drawn, Noise, assumed_backlash, check_noise, draw_f
 from .plants import climbing_plant, drawn_plant, truth_of
 from .warm_up import warm_up
 
-BEGINS: Final = (1.0, 20.0)
-"""First and last time at which a fault of a trial begins [s]: early, so that what comes of it is soon known."""
-GRABS: Final = 6
-"""A hold that is too weak is one of so many that are held at the start or grabbed first."""
-
 
 def failing_of(task: LimbedTask, plan: Plan) -> Failing:
     """Encoders, motors, and the holds that the plan comes to first."""
     robot = task.robot
     names, spans = robot.joint_names, [joint.upper - joint.lower for joint in robot.joints]
     taken = [*task.start.holds.values(), *(action.hold for action in plan.actions if action.hold is not None)]
-    holds = tuple(dict.fromkeys(hold for hold in taken if hold))[:GRABS]
+    holds = tuple(dict.fromkeys(hold for hold in taken if hold))[:FIRST_HOLDS]
     sensors = dict(zip(names, spans, strict=True)) | {"body": math.tau}
     return Failing(sensors=sensors, motors=names, holds=holds, weight=robot.weight)
 
@@ -55,7 +51,7 @@ PHYSICS_RATE: float = 1000.0
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ClimbRun(Jsonable, Pictured):
+class ClimbRun(Jsonable, TaskRun, Pictured):
     """A climb that was carried out; exit code 1 where it is not done."""
 
     task: Annotated[LimbedTask, Key(get=attrgetter("name"), kind=str, after="actions")]
@@ -72,28 +68,9 @@ class ClimbRun(Jsonable, Pictured):
     """What its log lacks, there only if it could not be written to its end; None: nothing, or there is no log."""
 
     @property
-    def work(self) -> LimbedTask:
-        """What was carried out."""
-        return self.task
-
-    @property
-    def done(self) -> bool:
-        """Whether every action was carried out, and the body came to the goal with it."""
-        return self.report.done
-
-    @property
-    def reason(self) -> str:
-        """Why not; empty where it did."""
-        return self.report.reason
-
-    @property
     def scene(self) -> LoggedScene:
         """See `CarriedOut`."""
         return climb_scene(self.task, true=self.trace.true_pose is not None)
-
-    def told(self) -> str:
-        """Of what, and how it ended."""
-        return f"of {self.work.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
 
     @property
     def true_pegs(self) -> Floats | None:

@@ -14,15 +14,15 @@ from ....json_form import Count, Jsonable, Key
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import RunEvents
-from ....trials.fault_trials import TriedFault, check_told, told_fault
-from ....trials.trial_runs import ERROR, Setup, Trials
+from ....trials.fault_trials import TriedFault, told_fault
+from ....trials.trial_runs import ERROR, Setup, Trials, check_told
 from ....types import Json
 from ..execution.climbing import Progress, Replan
 from ..execution.executable_plan import lay_course
 from ..planning.task import LimbedTask
-from .noise import NOISE, Noise, check_noise, noise_of
+from .noise import NOISE, Noise, check_noise
 from .planning import QUIET, no_plan, plan_to_climb, replanner, validations
-from .run_plan import BEGINS, ClimbRun, action_told, climbing_flaws, failing_of, run_plan
+from .run_plan import ClimbRun, action_told, climbing_flaws, failing_of, run_plan
 from .warm_up import warm_up
 
 PLAN_SEED: Final = 0
@@ -113,7 +113,7 @@ def run_trial(item: Json) -> Json:
     planner, seconds, replan = item["planner"]
     setup = TrialSetup(
         task=task,
-        noise=noise_of(item["noise"]),
+        noise=Noise.from_json(item["noise"]),
         plan=Plan.from_json(item["plan"] | {"document": item["document"]}),
         plant=tuple(item["plant"]),
         planner=planner,
@@ -277,7 +277,7 @@ def climb_once(
     assert setup.plan is not None, "plan first"
     planner = replanner(setup.planner, seconds=setup.seconds, seed=PLAN_SEED, threads=1)  # others climb meanwhile
     way = PlansOnTheWay(planner, plans, [])
-    fault = draw_fault(setup.faults, seed, failing_of(setup.task, setup.plan), BEGINS) if setup.faults else None
+    fault = draw_fault(setup.faults, seed, failing_of(setup.task, setup.plan)) if setup.faults else None
     run = run_plan(
         setup.task,
         setup.plan,

@@ -1,6 +1,5 @@
 """Boards from a table of points: one hold per line, x and y, in lengths with a unit or in a picture's pixels with a scale."""
 
-import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Final
 from ....errors import FileError, SpecError, UnitError
 from ....files import Document, csv_rows, read_text
 from ....types import Json
-from ....units import UNITS, convert, split_title
+from ....units import UNITS, convert, is_number, split_title
 from .board import SCHEMA, Board, build_board
 
 DEFAULT_RADIUS: Final = "5 mm"
@@ -48,13 +47,13 @@ def read_points(path: Path) -> Points:
         cells = [cell.strip() for cell in row]
         if not any(cells) or cells[0].startswith("#"):
             continue
-        if not places and not seen_header and not _is_number(cells[0]):
+        if not places and not seen_header and not is_number(cells[0]):
             seen_header, unit = True, _header_unit(name, line, cells)
             continue
         if len(cells) != 2:
             raise FileError(f"{name}:{line}", f"has {len(cells)} columns", "each line is x, y")
         for column, cell in zip("xy", cells, strict=True):
-            if not _is_number(cell):
+            if not is_number(cell):
                 raise FileError(f"{name}:{line}", f"{column} = {cell!r}", "state a finite number without a unit")
         places.append((cells[0], cells[1]))
         lines.append(line)
@@ -137,13 +136,6 @@ def _document(points: Points, path: Path, places: list[tuple[str, str]], radius:
         "holds": [{"number": number, "x": x, "y": y} for number, (x, y) in enumerate(places, start=1)],
     }
     return Document(points.name, data, (), path.parent)
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell)) and "_" not in cell
-    except ValueError:
-        return False
 
 
 def _header_unit(name: str, line: int, cells: list[str]) -> str | None:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ....execution.fault import (
     FAULTS,
+    FIRST_HOLDS,
     Failing,
     Fault,
     Injector,
@@ -32,11 +33,6 @@ from .plant import (
 )
 from .sensors import sensor_names, sensor_ranges
 
-BEGINS: Final = (1.0, 20.0)
-"""First and last time at which a fault of a trial begins [s]: early, so that what comes of it is soon known."""
-GRABS: Final = 6
-"""A hold that is too weak is one of so many that are held at the start or grabbed first."""
-
 
 def fault_kinds(robot: SpatialRobot) -> tuple[str, ...]:
     """Kinds of faults that a robot may have: only end effectors that attach pull a hold off."""
@@ -50,7 +46,7 @@ def failing_of(task: SpatialTask, plan: Plan) -> Failing:
     names = sensor_names(robot)
     strengths = robot.strengths
     taken = [hold for limb, hold in grabs(task, plan) if strengths[limb].capture > 0.0]
-    holds = tuple(hold + 1 for hold in dict.fromkeys(taken))[:GRABS]
+    holds = tuple(hold + 1 for hold in dict.fromkeys(taken))[:FIRST_HOLDS]
     sensors = dict(zip(names, sensor_ranges(robot).tolist(), strict=True))
     joints = names[: int(robot.chains.n_joints.sum())]
     return Failing(sensors=sensors, motors=joints, holds=holds, weight=robot.chains.total_mass * GRAVITY)

@@ -6,17 +6,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from ....execution.log_scene import WORLD, Frame, LoggedScene, Shape, rod, turn_of
+from ....execution.log_scene import BODY, HOLD, LIMBS, WORLD, Frame, LoggedScene, Shape, ball, rod, turn_of
 from ....execution.sample_log import columns_of
 from ....types import Floats
 from ..planning.task import SpatialTask
 from .run_trace import Named
 
 BASE: Final = "base"
-HOLD: Final = "#8A8F98"
-BODY: Final = "#9FADBA"
-LIMBS: Final = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#6A3D9A", "#7F6A00")
-"""Colours of limbs, in their order."""
 
 
 def space_scene(task: SpatialTask, *, true: bool) -> LoggedScene:
@@ -46,7 +42,7 @@ def space_scene(task: SpatialTask, *, true: bool) -> LoggedScene:
             made.append(Frame(f"{name} tip", parent, chains.offset[limb, last], turn_of(chains.rotation[limb, last])))
         return made
 
-    holds = [_ball(hold, 0.008, HOLD) for hold in task.world.places] if len(task.world.holds) else []
+    holds = [ball(0.008, HOLD, hold) for hold in task.world.places] if len(task.world.holds) else []
     return LoggedScene({WORLD: holds} | _robot(chains), frames)
 
 
@@ -68,10 +64,6 @@ def _robot(chains: Any) -> dict[str, Sequence[Shape]]:
         for k in range(int(chains.n_joints[limb])):
             radius, end = max(float(chains.radius[limb, k]), 0.005), chains.offset[limb, k + 1]
             link = [rod(np.zeros(3), end, radius, shade)] if float(np.linalg.norm(end)) > 1e-6 else []
-            shapes[_link(name, k)] = [_ball(np.zeros(3), 1.2 * radius, shade), *link]
-        shapes[f"{name} tip"] = [_ball(np.zeros(3), 0.012, shade)]
+            shapes[_link(name, k)] = [ball(1.2 * radius, shade), *link]
+        shapes[f"{name} tip"] = [ball(0.012, shade)]
     return shapes
-
-
-def _ball(at: Floats, radius: float, shade: str) -> Shape:
-    return Shape("spheres", at, (2 * radius,) * 3, shade)

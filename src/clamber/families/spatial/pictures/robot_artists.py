@@ -109,11 +109,11 @@ class RobotArtists:
 
     @property
     def artists(self) -> list[Artist]:
-        """All artists, from back to front."""
+        """See `Robot`."""
         return [self.marks, self.path, self.body, self.forces, *self.mass]
 
     def update(self, at: Moment) -> None:
-        """Put every artist where a moment has it."""
+        """See `Robot`."""
         patches = sorted([*self._base(at), *self._limbs(at)], key=lambda patch: patch.depth)
         self.body.set_verts([patch.outline for patch in patches])
         self.body.set_facecolor([patch.face for patch in patches])

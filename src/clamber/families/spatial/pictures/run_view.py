@@ -94,10 +94,6 @@ class RunView(View[Moment]):
         x, y, z = at.body.place.tolist()
         return f"x {x:.3f}, y {y:.3f}, z {z:.3f} m", describe_holds(self.names, at.holds)
 
-    def facts(self, step: int, at: Moment) -> tuple[tuple[str, str], ...]:
-        """See `Film`."""
-        return tuple(zip(self.rows, self.lines(step, at), strict=True))
-
     def verdict(self, step: int) -> str:
         """See `View`."""
         if step == 0:

@@ -66,11 +66,11 @@ class SpatialView(PlanView[Moment]):
         self.gauges = (*self.gauges, force_gauges(task), torque_gauges(task))
 
     def settled(self, step: int) -> Moment:
-        """The stance after a step; 0 is the start."""
+        """See `View`."""
         return self.moments[step]
 
     def motion(self, step: int) -> list[Part[Moment]]:
-        """The parts of a step's motion."""
+        """See `View`."""
         stance = self.replay.stances[step - 1]
         before, after = self.moments[step - 1], self.moments[step]
         return Between(self.task, before, after, lambda limb: self._loads.wrenches(stance, limb)).parts()

@@ -32,11 +32,11 @@ class SpatialPlans(PlanFamily):
         return Posed(problem, len(problem.actions))
 
     def problem(self, task: SpatialTask) -> SpatialProblem:
-        """The task with every check evaluated, for replays."""
+        """See `PlanFamily`."""
         return SpatialProblem(task, 1, exact=True)
 
     def limits(self, task: SpatialTask) -> CodeLimits:
-        """The codes that are actions of a task, and the indices that its stances may have."""
+        """See `PlanFamily`."""
         return code_limits(task)
 
     def sizes(self, task: SpatialTask) -> Mapping[str, float]:
@@ -57,10 +57,6 @@ class SpatialPlans(PlanFamily):
             "clearance": 0.1 * size,
         }
 
-    def hard(self, task: SpatialTask) -> tuple[str, ...]:
-        """Names of the checks that forbid an action."""
-        return task.rules.hard
-
     def model(self, task: SpatialTask) -> str:
         """The lattice, and how many holds a limb chooses from, that a proof holds for."""
         step = task.step
@@ -73,7 +69,7 @@ class SpatialPlans(PlanFamily):
         return f"{super().model(task)}; {lattice}; the {step.nearest} nearest holds of each limb"
 
     def action(self, task: SpatialTask, code: int, after: np.void, gene: str | None) -> PlannedAction:
-        """A packed code as a named action, its hold read from the stance that it led to."""
+        """See `PlanFamily`."""
         opened = Code.of(code)
         if opened.kind == "move":
             return PlannedAction(kind="move", delta=self.move_delta(task, opened.argument), gene=gene)

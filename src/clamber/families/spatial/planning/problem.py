@@ -1,6 +1,5 @@
 """A task of a robot in space as planners see it."""
 
-import copy
 import math
 from collections.abc import Callable
 from typing import Any, Final, Self
@@ -12,7 +11,7 @@ from ....errors import SpecError
 from ....planning.problem.arrays import ActionTable, CostToGoMap, Params
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import HOLD, MOVE, NEAREST, NONE, Code, pack
-from ....planning.problem.problem import Beam, CompiledProblem, Records
+from ....planning.problem.problem import FEATURE_KINDS, FEATURE_NAMES, Beam, CompiledProblem, Records
 from ....types import Floats
 from ..statics.judging import REACHED
 from ..statics.records import BODY, CONTACT, JUDGED, LIMBS, RULES, WORK
@@ -28,9 +27,6 @@ from .step_kernels import MOVES
 from .surface import fit_surface, on_guide, span_along
 from .task import CHECK_NAMES, SpatialTask, Start
 
-FEATURES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
-KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
-"""How an action's features add up to a plan's: the last, the sum, or the largest."""
 MOVE_NAMES: Final = tuple(
     f"{sign}{axis}" for axis in ("along", "across", "height", "yaw", "pitch", "roll") for sign in "+-"
 ) + tuple(f"{sign}{axis} far" for axis in ("along", "across") for sign in "+-")
@@ -62,17 +58,13 @@ class SpatialProblem(CompiledProblem):
             find_start(task, params),
             ActionTable.build([(name, [pack(MOVE, 0, k)], True) for k, name in enumerate(MOVE_NAMES)] + _choices(task)),
             CHECK_NAMES,
-            FEATURES,
+            FEATURE_NAMES,
             threads,
         )
 
     def informed(self, is_late: Callable[[], bool] = lambda: False) -> Self:
         """The same problem whose `bound` counts, limb by limb, what must still change near the straight way to the last goal."""
-        other = copy.copy(self)
-        other.params = with_bound(self.params, self.start, is_late)
-        other.threads, other._pool, other._kept = 1, None, []
-        other._scratch = [other._make_scratch()]
-        return other
+        return self._with_params(with_bound(self.params, self.start, is_late))
 
     @property
     def limits(self) -> CodeLimits:
@@ -131,10 +123,6 @@ class SpatialProblem(CompiledProblem):
             if opened.kind == "nearest":
                 named[i] = pack(HOLD, opened.limb, int(stances["hold"][i + 1, opened.limb]))
         return named
-
-    def is_done(self, stance: Records) -> bool:
-        """Whether every goal is met."""
-        return bool(stance["stage"][0] >= self.goals)
 
 
 def _choices(task: SpatialTask) -> list[tuple[str, list[int], bool]]:
@@ -218,7 +206,7 @@ def problem_params(task: SpatialTask, exact: bool) -> Params:
     for key in ("length", "angle", "tilt", "heights", "tilts", "far", "nearest"):
         row[key] = getattr(step, key)
     row["turns"] = round(math.tau / step.angle)
-    row["n_limbs"], row["kinds"][: len(KINDS)] = len(robot.chains.limb_names), KINDS
+    row["n_limbs"], row["kinds"][: len(FEATURE_KINDS)] = len(robot.chains.limb_names), FEATURE_KINDS
     row["hard"] = sum(1 << k for k, check in enumerate(SPATIAL_CHECKS) if check.name in rules.hard)
     row["lift"], row["clearance"] = rules.lift, rules.clearance
     arrays = robot_arrays(robot)

@@ -2,18 +2,16 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 from typing import Annotated, Final
 
 from pydantic import Field, StrictBool, StrictStr
 
 from ....files import Document, check_schema
-from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import check_order
-from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
-from ....types import Json
+from ....tasks.task_format import SCHEMA, ReadTask, TaskFormat, check_angle, check_hard, hashes_of
 from ....units import Angle, Length, NonNegativeLength, PositiveAngle, PositiveLength, Quantity
 from ..robot.handling import Payload
 from ..robot.robot import RobotSpec, SpatialRobot, build_robot, whole_document
@@ -169,11 +167,9 @@ class SpatialTaskSpec:
 
 
 @spec
-class SpatialTask(Pictured):
+class SpatialTask(ReadTask):
     """A task with everything resolved, SI."""
 
-    name: str
-    title: str
     robot: SpatialRobot
     world: World
     start: Start
@@ -181,10 +177,6 @@ class SpatialTask(Pictured):
     goals: tuple[Goal, ...]
     """Sub-goals in order, then the goal."""
     rules: Rules
-    document: Json = field(default_factory=dict)
-    """Robot, world and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
-    hashes: Mapping[str, str] = field(default_factory=dict)
-    """"robot", "world", "task" -> SHA-256 of that part of `document`."""
 
 
 def build_task(document: Document) -> SpatialTask:

@@ -1,14 +1,13 @@
 """What a run of a robot in space meets that nobody told its controller: widths by name, and what a seed draws from them."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
 
 from ....planning.problem.plan import Plan
-from ....trials.noise import SETS, NoiseKind, read_widths
-from ....types import Floats, Json
+from ....trials.noise import NoiseKind, NoiseWidths, stream_of
+from ....types import Floats
 from ....units import DEGREE, GRAVITY
 from ..execution.course import grabs
 from ..planning.task import SpatialTask
@@ -53,20 +52,11 @@ PUSHED_FOR: Final = 600.0
 """Pushes are drawn for runs of so long [s]."""
 
 
-@dataclass(frozen=True, slots=True)
-class SpatialNoise:
+class SpatialNoise(NoiseWidths):
     """A width for every key, in SI."""
 
-    widths: Mapping[str, float]
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {key: self.widths[key] for key in SPATIAL_NOISE}
-
-    @property
-    def any(self) -> bool:
-        """Whether anything deviates."""
-        return any(self.widths.values())
+    __slots__ = ()
+    kinds = SPATIAL_NOISE
 
     def flaws(self, base: SpatialFlaws, seed: int) -> SpatialFlaws:
         """What a seed makes of a plant; what it states itself stays."""
@@ -86,7 +76,7 @@ class SpatialNoise:
         }
         usual = SpatialFlaws()
         stated = {key: value for key in own if (value := getattr(base, key)) != getattr(usual, key)}
-        friction = base.friction * (1.0 + float(self._share("gear_friction", seed)[0]))
+        friction = base.friction * (1.0 + float(self.share("gear_friction", seed)))
         return replace(base, **(own | stated), friction=friction, seed=seed)
 
     def deviations(self, robot: SpatialRobot, world: World, seed: int) -> Deviations:
@@ -96,20 +86,16 @@ class SpatialNoise:
         return Deviations(
             places=world.places + self._within("hold_place", seed, holds),
             normals=tilted(world.normals, self._within("hold_tilt", seed, holds)),
-            strengths=1.0 + self._share("strength", seed, holds),
-            frictions=1.0 + self._share("friction", seed, holds),
-            masses=1.0 + self._share("mass", seed, parts),
-            payload=robot.chains.total_mass * abs(float(self._share("payload", seed)[0])),
+            strengths=1.0 + self.share("strength", seed, holds),
+            frictions=1.0 + self.share("friction", seed, holds),
+            masses=1.0 + self.share("mass", seed, parts),
+            payload=robot.chains.total_mass * abs(float(self.share("payload", seed))),
             pushes=self._pushes(weight, seed),
         )
 
-    def _share(self, key: str, seed: int, n: int = 1) -> Floats:
-        """Evenly spread over a width to either side, from a stream of the key's own, shape (n,)."""
-        return self.widths[key] * np.random.default_rng([seed, *key.encode()]).uniform(-1.0, 1.0, n)
-
     def _within(self, key: str, seed: int, n: int) -> Floats:
         """Evenly spread within a ball of the width, shape (n, 3)."""
-        chance = np.random.default_rng([seed, *key.encode()])
+        chance = stream_of(key, seed)
         ways = chance.standard_normal((n, 3))
         ways /= np.linalg.norm(ways, axis=1, keepdims=True)
         found: Floats = self.widths[key] * ways * np.cbrt(chance.random((n, 1)))
@@ -118,7 +104,7 @@ class SpatialNoise:
     def _pushes(self, weight: float, seed: int) -> tuple[Push, ...]:
         if not self.widths["push"]:
             return ()
-        chance = np.random.default_rng([seed, *b"push"])
+        chance = stream_of("push", seed)
         found, time = [], float(chance.exponential(PUSHES))
         while time < PUSHED_FOR:
             way = chance.standard_normal(3)
@@ -135,21 +121,6 @@ def tilted(normals: Floats, turns: Floats) -> Floats:
     axes = across / np.maximum(angles, 1e-12)
     made: Floats = np.cos(angles) * normals + np.sin(angles) * np.cross(axes, normals)
     return made
-
-
-def named_spatial_noise(name: str) -> SpatialNoise:
-    """All widths: "usual", or "none" of all."""
-    assert name in SETS
-    return SpatialNoise({key: kind.width if name == "usual" else 0.0 for key, kind in SPATIAL_NOISE.items()})
-
-
-def read_spatial_noise(base: SpatialNoise, texts: Iterable[str]) -> SpatialNoise:
-    """`base` changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of it.
-
-    Raises:
-        NoiseError: If there is no such key, or its width cannot be.
-    """
-    return SpatialNoise(read_widths(SPATIAL_NOISE, base.widths, texts))
 
 
 def drawn(noise: SpatialNoise, task: SpatialTask, plan: Plan, seed: int) -> dict[str, float]:

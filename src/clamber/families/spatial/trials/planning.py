@@ -11,7 +11,7 @@ from ....planning.planners import accepts
 from ....planning.problem.plan import Plan
 from ....planning.problem.problems import pose_problem
 from ....planning.problem.verdict import check_plan
-from ....trials.dynamics import Conditions, NoPlanError, RunEvents, search_to_run
+from ....trials.dynamics import Conditions, NoPlanError, RunEvents, plan_to_run, search_to_run
 from ..control.laws import USUAL
 from ..execution.carrying import Replan
 from ..planning.task import SpatialTask
@@ -79,10 +79,7 @@ def found_plan(task: SpatialTask, asked: Conditions, events: RunEvents, seed: in
             events.note(f"no plan keeps {100 * reserve:.0f} % of all strengths in reserve; one with less is looked for")
     if failed:
         return failed[0]
-    result = search_to_run(task, asked.planner, asked, events, seed)
-    if result.has_plan:
-        return result.plan
-    raise NoPlanError(asked.planner, task.name, f"was found: {result.reason}")
+    return plan_to_run(task, asked, events, seed, "was found")
 
 
 def _goes_well(task: SpatialTask, plan: Plan, asked: Conditions, events: RunEvents) -> bool:

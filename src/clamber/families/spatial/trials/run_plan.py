@@ -23,6 +23,7 @@ from ....json_form import (
 )
 from ....notebook import Pictured
 from ....planning.problem.plan import Plan
+from ....trials.dynamics import TaskRun
 from ....types import Floats
 from ..control.believed_tree import believed_tree, joint_inertias
 from ..control.laws import USUAL
@@ -41,7 +42,7 @@ from ..sim.spatial_plant import SpatialSim
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class SpatialRun(Jsonable, Pictured):
+class SpatialRun(Jsonable, TaskRun, Pictured):
     """A plan that was carried out."""
 
     task: Annotated[SpatialTask, Key(get=lambda task: task.name, kind=str)]
@@ -58,28 +59,9 @@ class SpatialRun(Jsonable, Pictured):
     log_gap: Annotated[LogGap | None, HIDDEN] = None
 
     @property
-    def work(self) -> SpatialTask:
-        """What was carried out."""
-        return self.task
-
-    @property
     def scene(self) -> LoggedScene:
         """See `CarriedOut`."""
         return space_scene(self.task, true=self.trace.true_pose is not None)
-
-    def told(self) -> str:
-        """Of what, and how it ended."""
-        return f"of {self.task.name!r}: {self.reason or 'done'}, {self.report.seconds:.0f} s"
-
-    @property
-    def done(self) -> bool:
-        """Whether the plan came to its end."""
-        return self.report.done
-
-    @property
-    def reason(self) -> str:
-        """Why not; empty where it did."""
-        return self.report.reason
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,29 +7,22 @@ from dataclasses import (
     replace,
 )
 from operator import attrgetter
-from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated
 
 import numpy as np
 
 from ....execution.fault import draw_fault
-from ....jobs import read_result
-from ....json_form import (
-    HIDDEN,
-    Count,
-    Jsonable,
-    Key,
-    in_json,
-)
+from ....json_form import Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
 from ....trials.dynamics import Conditions, RunEvents
-from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
+from ....trials.fault_trials import FaultRow, TriedFault, fault_rows, told_fault
 from ....trials.sensitivity import Effect, find_effects
-from ....trials.trial_runs import ERROR, Cause, Setup, Trials, causes_of
-from ....types import Floats, Json
+from ....trials.trial_runs import Cause, Setup, Trials, causes_of
+from ....types import Json
 from ..control.laws import USUAL
-from ..execution.faulty_spatial import BEGINS, failing_of
+from ..execution.faulty_spatial import failing_of
 from ..planning.task import SpatialTask
 from ..sim.spatial_flaws import Deviations, read_spatial_flaws
 from .noise import SPATIAL_NOISE, SpatialNoise, drawn
@@ -98,7 +91,7 @@ def _deviations(noise: SpatialNoise, item: Json, task: SpatialTask, plan: Plan) 
     true = noise.deviations(task.robot, task.world, seed) if noise.any else None
     if not kinds:
         return true
-    fault = draw_fault(kinds, seed, failing_of(task, plan), BEGINS)
+    fault = draw_fault(kinds, seed, failing_of(task, plan))
     return replace(true or Deviations.none(task.robot, task.world), fault=fault)
 
 
@@ -133,6 +126,19 @@ def run_spatial_trial(item: Json) -> Json:
 class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
     """What all trials have in common."""
 
+    kind = SpatialTrial
+    unknown = MappingProxyType(
+        {
+            "seconds": 0.0,
+            "actions": 0,
+            "off": 0.0,
+            "lost": None,
+            "breaks": 0,
+            "replans": 0,
+            "wall_seconds": 0.0,
+            "drawn": {},
+        }
+    )
     task: SpatialTask
     noise: SpatialNoise
     plant: tuple[str, ...] = ()
@@ -190,28 +196,6 @@ class SpatialSetup(Setup[SpatialRun, SpatialTrial]):
         """No runs yet."""
         return SpatialTrials(self, asked, [])
 
-    def trial(self, result: Json, store: Path | None = None) -> SpatialTrial:
-        """The trial of a result."""
-        trial = read_result(SpatialTrial, result, store)
-        check_told(trial.fault, store)
-        return trial
-
-    def failed(self, seed: int, error: str) -> SpatialTrial:
-        """A run that raised."""
-        return SpatialTrial(
-            seed=seed,
-            done=False,
-            reason=f"{ERROR}: {error}",
-            seconds=0.0,
-            actions=0,
-            off=0.0,
-            lost=None,
-            breaks=0,
-            replans=0,
-            wall_seconds=0.0,
-            drawn={},
-        )
-
     def again(
         self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
     ) -> tuple[SpatialRun, SpatialTrial]:
@@ -234,11 +218,7 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
             meaning="Key to its width, SI units.",
         ),
     ]
-    asked: Count
-    """How many there are to be."""
     ended: Annotated[list[SpatialTrial], Key("trials", after="effects")]
-    wall_seconds: Annotated[float, HIDDEN] = 0.0
-    """All workers together, for the runs that ended."""
 
     @in_json(after="interval")
     def causes(self) -> tuple[Cause, ...]:
@@ -254,7 +234,3 @@ class SpatialTrials(Trials[SpatialSetup, SpatialTrial], Jsonable):
     def effects(self) -> tuple[Effect, ...]:
         """What each key of the noise did to success; of keys that are the same in each run, and beside faults, nothing."""
         return () if self.setup.faults else tuple(find_effects(SPATIAL_NOISE, self.ended))
-
-    def of(self, name: str) -> Floats:
-        """A number of all runs that have it."""
-        return np.array([value for trial in self.ended if (value := getattr(trial, name)) is not None], np.float64)

@@ -1,6 +1,5 @@
 """Worlds in space by name or path, and holds from a table."""
 
-import math
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
@@ -8,7 +7,7 @@ from typing import Final
 from ....errors import FileError
 from ....files import Document, data_names, find_data, read_text, read_toml
 from ....types import Json
-from ....units import split_title
+from ....units import is_number, split_title
 from .terrain import packed_terrain
 from .terrain_files import table_rows
 
@@ -85,7 +84,7 @@ def _hold(label: str, number: int, cells: dict[str, str], units: dict[str, str])
         if not cells.get(column):
             raise FileError(label, f"has no {column}", "each line has a number for each column of the header")
     for column, cell in cells.items():
-        if cell and not _is_number(cell):
+        if cell and not is_number(cell):
             raise FileError(label, f"{column} = {cell!r}", "state a finite number without a unit")
     made: Json = {
         "number": number,
@@ -96,10 +95,3 @@ def _hold(label: str, number: int, cells: dict[str, str], units: dict[str, str])
         if cells.get(column):
             made[column] = f"{cells[column]} {units[column]}".strip()
     return made
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        return math.isfinite(float(cell)) and "_" not in cell
-    except ValueError:
-        return False

@@ -41,11 +41,11 @@ def max_setting(
     from ....trials.work import split_settings
     from ..planning import load_walk
     from ..trials.max_setting import MaxSetting, Tried, find_most, most_tries
-    from ..trials.noise import named_walk_noise, read_walk_noise
+    from ..trials.noise import WalkNoise
     from ..trials.run_walk import run_walk, step_told, walk_flaws
 
     axis = range_axis(vary)
-    sizes = read_walk_noise(named_walk_noise("none"), noise or ())
+    sizes = WalkNoise.of("none", noise or ())
 
     def opened(value: str) -> "tuple[Walk, WalkerFlaws]":
         for_walk, for_plant = split_settings([*(overrides or ()), f"{axis.key}={value}"])

@@ -4,7 +4,7 @@ from typing import Final
 
 import numpy as np
 
-from ....execution.log_scene import WORLD, Frame, LoggedScene, Shape, rod, turn_of
+from ....execution.log_scene import WORLD, Frame, LoggedScene, Shape, ball, rod, turn_of
 from ....execution.sample_log import columns_of
 from ....types import Floats
 from ..robot import FRAME_TITLES, LEG_NAMES, WalkerRobot
@@ -58,7 +58,7 @@ def walk_scene(robot: WalkerRobot, ground: Ground, *, true: bool, arm: bool) -> 
 
     shapes = {GROUND: _ground(ground)} | _robot(robot)
     if true and arm:
-        shapes["tool"] = [Shape("spheres", (0.0, 0.0, 0.0), (0.04,) * 3, "#6B6B6B")]
+        shapes["tool"] = [ball(0.02, "#6B6B6B")]
     return LoggedScene(shapes, frames)
 
 

@@ -262,7 +262,7 @@ class _Drawn:
 
     @property
     def artists(self) -> list[Artist]:
-        """All, from back to front."""
+        """See `Robot`."""
         legs, soles = ([one for three in six for one in three] for six in (self.legs, self.soles))
         return [self.support, *legs, *self.actuators, *self.frames, self.arm, *soles, self.centre]
 

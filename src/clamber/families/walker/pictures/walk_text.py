@@ -7,11 +7,18 @@ from rich.console import Console
 
 from ....shown_units import ShownUnits, units_of
 from ....trials.fault_trials import fault_rows
-from ....trials.held_out import seeds_in_words
 from ....trials.trial_runs import wilson_interval
 from ....units import DEGREE
 from ....viewing.text_table import plain_table
-from ....viewing.trials_text import print_causes, print_faults, some
+from ....viewing.trials_text import (
+    between,
+    print_causes,
+    print_computing,
+    print_ended,
+    print_faults,
+    print_spreads,
+    some,
+)
 from ..execution.walk_report import WalkReport
 from ..trials.held_point import HeldPoint
 from ..trials.run_walk import WalkRun
@@ -90,11 +97,9 @@ def _likely(interval: tuple[float, float]) -> str:
 def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]) -> None:
     """Print how often walks came to their end, and the spread of what is measured of them."""
     n = len(trials.ended)
-    style = "bold green" if trials.done == n else "bold red"
-    console.print(f"{trials.done} of {n} walks '{trials.setup.name}' came to their end", style=style)
-    console.print(_likely(trials.interval))
-    console.print(seeds_in_words(seeds))
-    console.print(f"{trials.balanced} of {n} kept their balance throughout: {_likely(trials.balanced_interval())}")
+    print_ended(console, trials, f"walks '{trials.setup.name}'", seeds)
+    balanced = between(trials.balanced_interval())
+    console.print(f"{trials.balanced} of {n} kept their balance throughout: {balanced}")
     causes = trials.causes()
     if causes:
         print_causes(console, causes)
@@ -103,27 +108,20 @@ def print_walk_trials(console: Console, trials: WalkTrials, seeds: Sequence[int]
     lost = [trial.seed for trial in trials.ended if trial.done and not (trial.margin or 0.0) > 0.0]
     if lost:
         console.print(f"came to their end without a margin of balance at some tick: seeds {some(lost)}")
-    table = plain_table("", "median", "5 %", "95 %", "least", "most", right=("median", "5 %", "95 %", "least", "most"))
     rows = (
         ("tilt [deg]", "tilt", DEGREE, 3), ("margin [mm]", "margin", 1e-3, 1), ("off [mm]", "off", 1e-3, 1),
         ("heading off [deg]", "turned", DEGREE, 2), ("time [s]", "seconds", 1.0, 0), ("kicks", "kicks", 1.0, 0),
         ("held over [m]", "held_way", 1.0, 3), ("held, farthest [mm]", "held_error", 1e-3, 2),
     )  # fmt: skip
+    spreads = []
     for title, name, unit, digits in rows:
         values = trials.of(name) / unit
-        if name == "margin" and len(values) < n:
-            title = f"{title}, of {len(values)}"
-        if len(values):
-            told = (*np.percentile(values, (50.0, 5.0, 95.0)), values.min(), values.max())
-            table.add_row(title, *(f"{value:.{digits}f}" for value in told))
-    console.print(table)
+        some_only = name == "margin" and len(values) < n
+        spreads.append((f"{title}, of {len(values)}" if some_only else title, values, digits))
+    print_spreads(console, spreads)
     if trials.setup.levels:
         console.print(
             f"{trials.level} of {n} came to their end with the plate never more than {LEVEL / DEGREE:g} deg from level: "
-            f"{_likely(wilson_interval(trials.level, n))}"
+            f"{between(wilson_interval(trials.level, n))}"
         )
-    walked = float(trials.of("seconds").sum())
-    if trials.wall_seconds > 0.0:
-        console.print(
-            f"{trials.wall_seconds:.0f} s of computing: {walked / trials.wall_seconds:.0f} times as fast as they happen"
-        )
+    print_computing(console, trials, 0)

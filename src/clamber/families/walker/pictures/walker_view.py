@@ -135,7 +135,7 @@ class WalkerArtists:
 
     @property
     def artists(self) -> list[Artist]:
-        """All, from back to front."""
+        """See `Robot`."""
         feet = [circle for circles in self.feet for circle in circles]
         every = [self.support, self.plate, *self.rods, *self.actuators, *feet, *self.mass]
         return sorted(every, key=lambda artist: artist.get_zorder())
@@ -213,11 +213,11 @@ class WalkerView(PlanView[WalkerMoment]):
         return WalkerArtists(picture.wall, self.task, self.bounds)
 
     def settled(self, step: int) -> WalkerMoment:
-        """The stance after a step; 0 is the start."""
+        """See `View`."""
         return self.moments[step]
 
     def motion(self, step: int) -> list[Part[WalkerMoment]]:
-        """The parts of a step's motion, in order."""
+        """See `View`."""
         return walker_motion(self.task, self.replay.stances[step - 1], self.replay.stances[step])
 
     def values(self, at: WalkerMoment) -> tuple[Floats, ...]:

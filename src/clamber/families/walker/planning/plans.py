@@ -26,7 +26,7 @@ class WalkerPlans(PlanFamily):
         return Posed(WalkerProblem(task, table, threads=threads), len(table))
 
     def limits(self, task: WalkerTask) -> CodeLimits:
-        """The codes that are actions of a task, and the indices that its stances may have."""
+        """See `PlanFamily`."""
         return walker_limits(task)
 
     def sizes(self, task: WalkerTask) -> Mapping[str, float]:
@@ -42,12 +42,8 @@ class WalkerPlans(PlanFamily):
         }
 
     def problem(self, task: WalkerTask) -> WalkerProblem:
-        """The task with every check evaluated, for replays."""
+        """See `PlanFamily`."""
         return WalkerProblem(task, walker_table(), every_check=True, threads=1)
-
-    def hard(self, task: WalkerTask) -> tuple[str, ...]:
-        """Names of the checks that forbid an action."""
-        return task.rules.hard
 
     def action(self, task: WalkerTask, code: int, after: np.void, gene: str | None) -> PlannedAction:
         """A packed code as a named action; the frame that moved, or lifted in a swap, does not stand afterwards."""

@@ -1,4 +1,4 @@
-"""The two-frame walker's `Problem`: a task as the arrays that the kernels read, its start stance, its outlines."""
+"""The two-frame walker's `CompiledProblem`: a task as the arrays that the kernels read, its start stance, its outlines."""
 
 import math
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from ....planning.problem.check import TICKS
 from ....planning.problem.code_limits import CodeLimits
 from ....planning.problem.codes import MOVE, NONE, RELEASE, pack
 from ....planning.problem.loops import replay
-from ....planning.problem.problem import CompiledProblem, Records
+from ....planning.problem.problem import FEATURE_KINDS, FEATURE_NAMES, CompiledProblem, Records
 from ....types import Floats
 from ..robot import FRAMES
 from ..robot.plane_poses import compose, placed
@@ -22,12 +22,9 @@ from ..robot.weight import Weight, weight_of
 from ..statics.checks import WALKER_CHECKS
 from ..statics.stance import WALKER_GOAL, WALKER_PARAMS, WALKER_STANCE
 from .step import FEATURES, KEY_WORDS
-from .task import Goal, WalkerTask
+from .task import WalkerTask
 
 CHECKS: Final = tuple(check.name for check in WALKER_CHECKS)
-# Named as the limbed climber's, so that a profile's weights fit: effort is the time that an action takes, peak is |p| / rho
-FEATURE_NAMES: Final = ("body", "limbs", "effort", "stages", "length", "unstable", "peak")
-FEATURE_KINDS: Final = (0, 0, 1, 0, 1, 1, 2)
 MOVES: Final = ("+x", "-x", "+y", "-y", "+theta", "-theta")
 
 
@@ -76,6 +73,7 @@ class WalkerProblem(CompiledProblem):
         params = walker_params(task)
         start = start_stance(task, params)
         self.task = task
+        # effort is the time that an action takes, peak is |p| / rho
         super().__init__(params, start, actions, CHECKS, FEATURE_NAMES, threads)
         assert len(FEATURE_NAMES) == FEATURES
 
@@ -98,16 +96,6 @@ class WalkerProblem(CompiledProblem):
     def branching(self) -> int:
         """Six moves and the swap."""
         return len(MOVES) + 1
-
-    @property
-    def way(self) -> float:
-        """The feature `body` of a stance that has met every goal [m]."""
-        last = self.params.array("goals")[-1]
-        return float(last["before"] + last["way"])
-
-    def is_done(self, stance: Records) -> bool:
-        """Whether a stance has met every goal."""
-        return bool(stance["stage"][0] >= len(self.task.goals))
 
 
 def walker_limits(task: WalkerTask) -> CodeLimits:
@@ -216,22 +204,12 @@ def _goals(task: WalkerTask) -> Records:
         if goal.theta_min is not None and goal.theta_max is not None:
             row["a_mid"] = 0.5 * (goal.theta_min + goal.theta_max)
             row["a_half"] = 0.5 * (goal.theta_max - goal.theta_min)
-        there = _middle(goal, at)
+        there = goal.middle(at)
         row["before"] = way
         row["way"] = math.hypot(there[0] - at[0], there[1] - at[1])
         way += float(row["way"])
         at = there
     return out
-
-
-def _middle(goal: Goal, start: tuple[float, float]) -> tuple[float, float]:
-    """The place that stands for a goal when ways add up: nearest in open directions, the middle of closed ones."""
-    x_min, x_max, y_min, y_max = goal.box
-    place = []
-    for lower, upper, at in ((x_min, x_max, start[0]), (y_min, y_max, start[1])):
-        closed = math.isfinite(lower) and math.isfinite(upper)
-        place.append(0.5 * (lower + upper) if closed else min(max(at, lower), upper))
-    return place[0], place[1]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

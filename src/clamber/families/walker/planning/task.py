@@ -1,19 +1,15 @@
 """The two-frame walker's task: a robot on a ground, its start, its steps, what counts as allowed and as done."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import field
 from typing import Annotated, Final, Literal
 
 from pydantic import StrictStr
 
 from ....files import Document, check_schema
-from ....notebook import Pictured
 from ....specs import Name, build_spec, field_names, spec
 from ....tasks.parts import parts_of
 from ....tasks.regions import GoalBox
-from ....tasks.task_format import SCHEMA, TaskFormat, check_angle, check_hard, hashes_of
-from ....types import Json
+from ....tasks.task_format import SCHEMA, ReadTask, TaskFormat, check_angle, check_hard, hashes_of
 from ....units import Angle, Length, NonNegativeLength, NonNegativeMass, Point, Quantity
 from ..robot import WalkerRobot, build_walker
 from ..statics.checks import WALKER_CHECKS
@@ -88,11 +84,9 @@ class WalkerTaskSpec:
 
 
 @spec
-class WalkerTask(Pictured):
+class WalkerTask(ReadTask):
     """A task with everything resolved: SI units, point goals as boxes."""
 
-    name: str
-    title: str
     robot: WalkerRobot
     world: Ground
     start: Start
@@ -100,10 +94,6 @@ class WalkerTask(Pictured):
     goals: tuple[Goal, ...]
     """Sub-goals in order, then the goal."""
     rules: Rules
-    document: Json = field(default_factory=dict)
-    """Robot, ground and task as read, with overrides applied, plain data: a worker rebuilds the task from it."""
-    hashes: Mapping[str, str] = field(default_factory=dict)
-    """"robot", "ground", "task" -> SHA-256 of that part of `document`."""
 
 
 def build_walker_task(document: Document) -> WalkerTask:

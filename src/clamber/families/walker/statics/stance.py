@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from ....compiled import carray, inlined, kernel, pointer
-from ....plane import inside, point_segment, wrap
+from ....plane import edge_distance, inside, wrap
 from ....planning.problem.check import TOLERANCE, UNLIMITED
 
 STROKE, SINGULAR, FOOTHOLD, BALANCE, LEGS = 0, 1, 2, 3, 4
@@ -144,24 +144,13 @@ def place(p, s, f):
         s.angle = angle
 
 
-@inlined
-def from_outline(x, y, corners):
-    """Distance of a point from a polygon's edge [m]."""
-    near = math.inf
-    j = corners.shape[0] - 1
-    for i in range(corners.shape[0]):
-        near = min(near, point_segment(x, y, corners[j, 0], corners[j, 1], corners[i, 0], corners[i, 1]))
-        j = i
-    return near
-
-
 @kernel
 def patch_distance(p, x, y):
     """Distance of a point of the ground, in its frame, from the nearest patch, edge or end [m]; negative in a patch or beyond an end."""
     best = min(min(x - p.ends[0], p.ends[1] - x), min(y - p.ends[2], p.ends[3] - y))
     for k in range(p.n_patches + p.n_edges):
         corners = outline(p, k)
-        near = from_outline(x, y, corners)
+        near = edge_distance(x, y, corners)
         best = min(best, -near if k < p.n_patches and inside(x, y, corners) else near)
     return best
 

@@ -1,13 +1,8 @@
 """What a walk meets that nobody told its controller: sizes by name, and what a seed draws from them."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from typing import Final
 
-import numpy as np
-
-from ....trials.noise import SETS, NoiseKind, read_widths
-from ....types import Json
+from ....trials.noise import NoiseKind, NoiseWidths
 from ....units import DEGREE
 from ..sim.walker_flaws import Inclinometers, WalkerFlaws
 
@@ -28,23 +23,15 @@ WALK_NOISE: Final[dict[str, NoiseKind]] = {
 that of the task; the other sizes are assumed."""
 
 
-@dataclass(frozen=True, slots=True)
-class WalkNoise:
+class WalkNoise(NoiseWidths):
     """A size for every key, in SI."""
 
-    widths: Mapping[str, float]
-
-    def to_json(self) -> Json:
-        """Plain data."""
-        return {key: self.widths[key] for key in WALK_NOISE}
+    __slots__ = ()
+    kinds = WALK_NOISE
 
     def flaws(self, base: WalkerFlaws, seed: int) -> WalkerFlaws:
-        """What a seed makes of `base`; each key draws from a stream of its own."""
-
-        def share(key: str, *shape: int) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
-            return self.widths[key] * np.random.default_rng([seed, *key.encode()]).uniform(-1.0, 1.0, shape)
-
-        along, across = share("inclinometer_offset", 2)
+        """What a seed makes of `base`."""
+        along, across = self.share("inclinometer_offset", seed, 2)
         return base.with_changes(
             seed=seed,
             inclinometers=Inclinometers(
@@ -53,21 +40,6 @@ class WalkNoise:
                 time_constant=base.inclinometers.time_constant,
             ),
             force_noise=self.widths["force_noise"],
-            friction=base.friction * (1.0 + float(share("friction"))),
+            friction=base.friction * (1.0 + float(self.share("friction", seed))),
             mass_error=self.widths["mass"],
         )
-
-
-def named_walk_noise(name: str) -> WalkNoise:
-    """All sizes: "usual", or "none" of all."""
-    assert name in SETS
-    return WalkNoise({key: kind.width if name == "usual" else 0.0 for key, kind in WALK_NOISE.items()})
-
-
-def read_walk_noise(base: WalkNoise, texts: Iterable[str]) -> WalkNoise:
-    """`base` changed by texts such as "friction=30%", the last one winning; "none" and "usual" change all of it.
-
-    Raises:
-        NoiseError: If there is no such key, or its size cannot be.
-    """
-    return WalkNoise(read_widths(WALK_NOISE, base.widths, texts))

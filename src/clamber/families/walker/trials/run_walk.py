@@ -43,7 +43,7 @@ from ..robot.weight import weight_of
 from ..sim.walker_flaws import WalkerFlaws
 from ..sim.walker_plant import WalkerSim
 from .held_point import HeldPoint, LaidHold, lay_hold
-from .noise import WalkNoise, named_walk_noise
+from .noise import WalkNoise
 from .planned import BALANCE, CLEARANCE, GUARD, STROKE
 
 
@@ -229,7 +229,7 @@ def run_walk(
     walk: Walk,
     flaws: WalkerFlaws,
     *,
-    noise: WalkNoise = named_walk_noise("none"),  # noqa: B008  # frozen
+    noise: WalkNoise = WalkNoise.of("none"),  # noqa: B008  # frozen
     seed: int = 0,
     settings: WalkSettings | None = None,
     lay: Lay | None = None,

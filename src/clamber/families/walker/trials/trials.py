@@ -4,19 +4,18 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from operator import attrgetter
-from pathlib import Path
+from types import MappingProxyType
 from typing import Annotated, Final
 
 import numpy as np
 
 from ....execution.fault import Failing, draw_fault
-from ....jobs import read_result
-from ....json_form import HIDDEN, Count, Jsonable, Key, in_json
+from ....json_form import Count, Jsonable, Key, in_json
 from ....planning.problem.plan import Plan
 from ....tasks import task_from_document
-from ....trials.fault_trials import FaultRow, TriedFault, check_told, fault_rows, told_fault
-from ....trials.trial_runs import ERROR, Cause, Setup, Trials, causes_of, wilson_interval
-from ....types import Floats, Json
+from ....trials.fault_trials import FaultRow, TriedFault, fault_rows, told_fault
+from ....trials.trial_runs import Cause, Setup, Trials, causes_of, wilson_interval
+from ....types import Json
 from ....units import DEGREE, GRAVITY
 from ..execution.own_sensors import FORCES, INCLINES, channels_of
 from ..planning import Walk
@@ -133,6 +132,18 @@ def run_walk_trial(item: Json) -> Json:
 class WalkSetup(Setup[WalkRun, WalkTrial]):
     """What all trials have in common: a walk, or a task with its plan."""
 
+    kind = WalkTrial
+    unknown = MappingProxyType(
+        {
+            "seconds": 0.0,
+            "steps": 0,
+            "tilt": 0.0,
+            "margin": None,
+            "off": None,
+            "turned": None,
+            "kicks": 0,
+        }
+    )
     walked: Walk | WalkerTask
     noise: WalkNoise
     plant: tuple[str, ...] = ()
@@ -191,27 +202,6 @@ class WalkSetup(Setup[WalkRun, WalkTrial]):
         """No walks yet."""
         return WalkTrials(self, asked, [])
 
-    def trial(self, result: Json, store: Path | None = None) -> WalkTrial:
-        """The trial of a result."""
-        trial = read_result(WalkTrial, result, store)
-        check_told(trial.fault, store)
-        return trial
-
-    def failed(self, seed: int, error: str) -> WalkTrial:
-        """A walk that raised."""
-        return WalkTrial(
-            seed=seed,
-            done=False,
-            reason=f"{ERROR}: {error}",
-            seconds=0.0,
-            steps=0,
-            tilt=0.0,
-            margin=None,
-            off=None,
-            turned=None,
-            kicks=0,
-        )
-
     def again(
         self, seed: int, kept: Json | None, step: Callable[[str, float | None], None]
     ) -> tuple[WalkRun, WalkTrial]:
@@ -234,11 +224,7 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
             meaning="Key to its width, SI units.",
         ),
     ]
-    asked: Count
-    """How many there are to be."""
     ended: Annotated[list[WalkTrial], Key("trials", after="faults")]
-    wall_seconds: Annotated[float, HIDDEN] = 0.0
-    """All workers together, for the walks that ended."""
 
     @property
     @in_json(after="interval")
@@ -266,9 +252,3 @@ class WalkTrials(Trials[WalkSetup, WalkTrial], Jsonable):
     def faults(self) -> tuple[FaultRow, ...]:
         """By kind; none in trials without."""
         return fault_rows(self.ended) if self.setup.faults else ()
-
-    def of(self, name: str) -> Floats:
-        """A number of all walks that have it."""
-        return np.array(
-            [value for trial in self.ended if (value := getattr(trial, name)) is not None], dtype=np.float64
-        )
