@@ -47,6 +47,12 @@ def test_a_first_run_that_compiles_in_two_processes_does_the_same_as_the_second(
     assert _without_wall_seconds(second.stdout) == _without_wall_seconds(first.stdout)
 
 
+@pytest.mark.slow
+def test_a_task_is_the_first_thing_that_is_ever_asked_for(tmp_path: Path) -> None:
+    run(tmp_path / "cache", "new", "task", "--robot", "libra", "--board", "ladder", "-o", str(tmp_path / "mine.toml"))
+    assert (tmp_path / "mine.toml").exists()
+
+
 def _without_wall_seconds(told: str) -> dict[str, object]:
     return {name: value for name, value in json.loads(told).items() if name != "wall_seconds"}
 

@@ -10,14 +10,13 @@ import numpy.typing as npt
 from scipy.spatial import cKDTree
 
 from ....planning.problem.check import TICKS
-from ....planning.problem.codes import pack
-from ....planning.problem.loops import replay
 from ....planning.problem.problem import Records
-from ....types import Json
+from ....types import Floats, Json
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
 from ..statics.records import STANCE
 from .arrays import CHECKS, limbed_params
+from .problem import judge_stance
 from .task import LimbedTask
 
 CHOICES: Final = 5
@@ -179,14 +178,10 @@ def _near(
     return found
 
 
-def _judged(
-    task: LimbedTask, record: np.void, holds: tuple[int, ...], place: tuple[int, int]
-) -> tuple[npt.NDArray[np.float64], int]:
+def _judged(task: LimbedTask, record: np.void, holds: tuple[int, ...], place: tuple[int, int]) -> tuple[Floats, int]:
     """Margins of a stance, shape (checks,), and the hard check that it violates, -1 for none."""
-    stances, margins, reasons = np.zeros(2, STANCE), np.zeros((1, len(CHECKS))), np.zeros(1, np.int32)
-    start = _stance(task, holds, (place[0] * TICKS, place[1] * TICKS))
-    replay(record, start, np.array([pack(0)], np.int32), True, stances, margins, reasons)
-    return margins[0], int(reasons[0])
+    _, margins, reason = judge_stance(record, _stance(task, holds, (place[0] * TICKS, place[1] * TICKS)))
+    return margins, reason
 
 
 def _different(choices: list[list[int]]) -> Iterator[tuple[int, ...]]:

@@ -18,6 +18,7 @@ from ....planning.problem.family_kernels import family_kernels
 from ....planning.problem.loops import replay
 from ....planning.problem.problem import FEATURE_NAMES, CompiledProblem, Records
 from ....shown_units import units_of
+from ....types import Floats
 from ..statics.checks import LIMBED_CHECKS
 from ..statics.elbows import EVERY
 from ..statics.records import PARAMS, STANCE
@@ -230,14 +231,22 @@ def start_stance(task: LimbedTask, params: Params) -> Records:
     start["elbows"] = EVERY
     start["x"], start["y"] = task.start.x, task.start.y
     start["bearing"] = params.record["centre_angle"] if params.record["circles"] else 0.0
-    margins = np.zeros((1, len(CHECKS)))
-    reasons = np.zeros(1, np.int32)
-    stances = np.zeros(2, STANCE)
-    replay(params.record, start, np.array([pack(0)], np.int32), True, stances, margins, reasons)
-    reason = int(reasons[0])
+    stance, margins, reason = judge_stance(params.record, start)
     if reason >= 0:
-        check, margin = LIMBED_CHECKS[reason], float(margins[0, reason])
+        check, margin = LIMBED_CHECKS[reason], float(margins[reason])
         short = units_of(task.document).signed(-margin, check.unit).removeprefix("+")
         raise StartError(task.name, CHECKS[reason], margin, check.meaning, short)
-    stances["count"] = 0
-    return stances[1:]
+    stance["count"] = 0
+    return stance
+
+
+def judge_stance(record: np.void, start: Records) -> tuple[Records, Floats, int]:
+    """A stance as the action that changes nothing leaves it, its margins, shape (checks,), and the hard check it violates, -1 for none.
+
+    It stands beside the family's kernels, so that they are registered for whoever asks this first.
+    """
+    stances = np.zeros(2, STANCE)
+    margins = np.zeros((1, len(CHECKS)))
+    reasons = np.zeros(1, np.int32)
+    replay(record, start, np.array([pack(0)], np.int32), True, stances, margins, reasons)
+    return stances[1:], margins[0], int(reasons[0])
