@@ -11,14 +11,12 @@ from statistics import mean
 import gymnasium
 import numpy as np
 
-from clamber.families.spatial.environment import register
 from clamber.families.spatial.environment_baseline import carry_out
 
 out = Path(sys.argv[1] if len(sys.argv) > 1 else "out")
 out.mkdir(exist_ok=True)
 seeds = range(1, 1 + int(sys.argv[2] if len(sys.argv) > 2 else 1))
 ticks = int(sys.argv[3] if len(sys.argv) > 3 else 2)
-register()  # Gymnasium does so by itself where Clamber is installed
 rows = ["environment,noise,who,seed,return,progress,seconds,done"]
 
 
@@ -38,9 +36,10 @@ def ours(env: gymnasium.Env, seed: int) -> tuple[float, float, float, bool]:
     return episode.total, episode.progress, episode.seconds, episode.done
 
 
+MODULE = "clamber.families.spatial.environment"  # that Gymnasium imports, for it knows the names
 for name in ("clamber/Climb-v0", "clamber/Walk-v0"):
     for noise in ("none", "usual"):
-        env = gymnasium.make(name, noise=[noise], ticks=ticks, disable_env_checker=True)
+        env = gymnasium.make(f"{MODULE}:{name}", noise=[noise], ticks=ticks, disable_env_checker=True)
         for act in (idle, ours):
             told = [act(env, seed) for seed in (seeds if noise == "usual" else seeds[:1])]
             totals, parts, times, done = zip(*told, strict=True)

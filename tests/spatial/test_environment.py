@@ -1,18 +1,24 @@
 """Environments of robots in space keep to Gymnasium's rules, and an episode of our own controller carries the plan out."""
 
+import re
+import subprocess
+import sys
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from clamber.errors import ClamberError
+
 gymnasium = pytest.importorskip("gymnasium")
 
 
-def made(name: str, **more: object) -> object:
-    from clamber.families.spatial.environment import register
+MODULE = "clamber.families.spatial.environment"
 
-    register()
-    return gymnasium.make(name, **more)
+
+def made(name: str, **more: object) -> object:
+    return gymnasium.make(f"{MODULE}:{name}", **more)
 
 
 @pytest.mark.slow
@@ -68,3 +74,29 @@ def test_tasks_of_other_families_are_refused_by_name(task: str) -> None:
 
     with pytest.raises(ClamberError, match=f"'{task}': environments are of robots in space, such as 'wall-gripper'"):
         SpatialEnv(task)
+
+
+def test_the_snippet_of_the_documentation_makes_an_environment_in_a_new_process(tmp_path: Path) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "environments.md").read_text()
+    snippet = page.split("```python\n", 1)[1].split("```", 1)[0]
+    line = next(line for line in snippet.splitlines() if "gymnasium.make" in line)
+    name = line.split('"')[1]
+    code = f"import gymnasium; gymnasium.make({name!r}, ticks=0)"  # refused by the environment, so that it was found
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (
+        done.stderr.splitlines()[-1]
+        == "clamber.errors.OptionError: ticks: 0 control periods; an action lasts 1 or more"
+    )
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ({"ticks": 0}, "an action lasts 1 or more"),
+        ({"seconds": -1.0}, "an episode lasts more than 0"),
+        ({"task": "ladder"}, "environments are of robots in space"),
+    ],
+)
+def test_what_no_environment_can_be_made_of_is_refused_with_a_reason(more: dict[str, object], said: str) -> None:
+    with pytest.raises(ClamberError, match=re.escape(said)):
+        made("clamber/Climb-v0", **more)

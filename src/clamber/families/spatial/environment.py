@@ -1,6 +1,7 @@
 """Gymnasium environments of robots in space: torques in, sensors and the planner's plan out, on the plant that `clamber run` uses.
 
-`gymnasium.make("clamber/Climb-v0")` and `"clamber/Walk-v0"`; what they reward and when they end stands in docs/environments.md.
+`gymnasium.make("clamber.families.spatial.environment:clamber/Climb-v0")`, or `Walk-v0`, imports this module, which makes both known;
+what they reward and when they end stands in docs/environments.md.
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ import numpy as np
 from gymnasium import spaces
 
 from ...control.whole_body.tree import State
-from ...errors import StatedError
+from ...errors import OptionError, SpecError, StatedError
 from ...planning.problem.plan import Plan
 from ...planning.problem.plan_source import open_plan
-from ...tasks import load_task
+from ...tasks import Task, load_task
 from ...trials.dynamics import Conditions, RunEvents
 from ...types import Floats, Ints
 from .control.believed_tree import believed_tree
@@ -57,9 +58,13 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         task: Name or file of a task.
         settings: Texts "key=value" that change the task.
         plan: Its plan or a plan's file; None: one is searched for.
-        noise: Texts as of `clamber trials --noise`, such as "usual"; none without.
+        noise: A text or several as of `clamber trials --noise`, such as "usual"; none without.
         ticks: Control periods that an action lasts.
         seconds: An episode lasts so long at most [s]; None: twice what the plan's actions take at one a second.
+
+    Raises:
+        OptionError: If `ticks` or `seconds` leave no time.
+        ClamberError: If task, settings, plan or noise cannot be used.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012  # Gymnasium's own
@@ -69,12 +74,16 @@ class SpatialEnv(gymnasium.Env[Any, Any]):
         task: str = "wall-gripper",
         settings: Sequence[str] = (),
         plan: Plan | str | None = None,
-        noise: Sequence[str] = (),
+        noise: str | Sequence[str] = (),
         ticks: int = 2,
         seconds: float | None = None,
     ) -> None:
+        if ticks < 1:
+            raise OptionError("ticks", f"{ticks} control periods", "an action lasts 1 or more")
+        if seconds is not None and not seconds > 0.0:
+            raise OptionError("seconds", f"{seconds} s", "an episode lasts more than 0")
         self.task, self.plan = _planned(task, settings, plan)
-        self._noise = SpatialNoise.of("none", noise)
+        self._noise = SpatialNoise.of("none", (noise,) if isinstance(noise, str) else noise)
         self._ticks = ticks
         robot = self.task.robot
         world = self.task.world
@@ -254,10 +263,20 @@ def _planned(name: str, settings: Sequence[str], plan: Plan | str | None) -> tup
         task = opened.task
         plan = opened.plan
     else:
-        task = load_task(name, list(settings))
+        task = _loaded(name, settings)
     if not isinstance(task, SpatialTask):
         raise NotInSpaceError(name)
     return task, found_plan(task, Conditions(), RunEvents(), seed=0) if plan is None else plan
+
+
+def _loaded(name: str, settings: Sequence[str]) -> Task:
+    """A task; where settings do not fit it because it is of another family, that is said."""
+    try:
+        return load_task(name, list(settings))
+    except SpecError:
+        if isinstance(load_task(name), SpatialTask):
+            raise
+        raise NotInSpaceError(name) from None
 
 
 class NotInSpaceError(StatedError):
@@ -267,10 +286,12 @@ class NotInSpaceError(StatedError):
     task: str
 
 
-def register() -> None:
-    """Make the environments known to Gymnasium by their names; it calls this by itself."""
+def _register() -> None:
+    """Make the environments known to Gymnasium by their names."""
     entry = f"{__name__}:SpatialEnv"
     for name, task, goal in (("Climb", "wall-gripper", "0.3 m"), ("Walk", "stones-quadruped", "0.5 m")):
-        if f"clamber/{name}-v0" not in gymnasium.registry:
-            near = (f"goal.along_min={goal}",)
-            gymnasium.register(f"clamber/{name}-v0", entry, kwargs={"task": task, "settings": near})
+        near = (f"goal.along_min={goal}",)
+        gymnasium.register(f"clamber/{name}-v0", entry, kwargs={"task": task, "settings": near})
+
+
+_register()  # `gymnasium.make("module:name")` imports the module for this
