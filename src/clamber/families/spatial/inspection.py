@@ -24,6 +24,8 @@ from .world.world import World, build_world
 
 NARROW: Final = 20.0 * DEGREE
 """A joint with less range is narrow [rad]."""
+ENDLESS: Final = 4.0 * math.pi + 1e-6
+"""A joint with more range, more than a whole turn either way, is odd [rad]."""
 ALONE: Final = 3.0
 """A hold this many times farther from its nearest than holds usually are is alone [-]."""
 INSIDE: Final = 0.002
@@ -51,6 +53,9 @@ def inspect_robot(robot: SpatialRobot, units: ShownUnits = SI) -> Finding:
     }
     if turning.any():
         facts["joint torque"] = span_words(chains.torque[turning].tolist(), units.torque)
+    sliding = chains.used & (chains.sliding == 1)
+    if sliding.any():
+        facts["joint force"] = span_words(chains.torque[sliding].tolist(), units.force)
     return Finding(kind="robot", name=robot.name, title=robot.title, facts=facts, odd=tuple(_odd_robot(robot, units)))
 
 
@@ -62,6 +67,10 @@ def _odd_robot(robot: SpatialRobot, units: ShownUnits) -> Iterator[str]:
         narrow = [joint for k, joint in enumerate(joints) if not chains.sliding[limb, k] and span[k] < NARROW]
         if narrow:
             yield f"limb '{name}': {_many(narrow)} turns through less than {NARROW / DEGREE:.0f} deg"
+        endless = [joint for k, joint in enumerate(joints) if not chains.sliding[limb, k] and span[k] > ENDLESS]
+        if endless:
+            turns = float(span.max()) / math.tau
+            yield f"limb '{name}': {_many(endless)} may turn {turns:.3g} times round; are limits in degrees where radians belong?"
         at_end = [
             joint
             for k, joint in enumerate(joints)
@@ -81,6 +90,9 @@ def _odd_robot(robot: SpatialRobot, units: ShownUnits) -> Iterator[str]:
                 f"half of its reach to the side it needs {needed / size:.3g} {unit}; "
                 f"its strongest motor may give {strongest / size:.3g} {unit}"
             )
+    light = [joint.name for limb in robot.choice.limbs for joint in limb.joints if not joint.rotor]
+    if light:
+        yield f"{_many(light)}: no inertia of rotors ('rotors' of a limb, or armature): gears with play rattle under noise"
     points = [contact.components == 3 for contact in robot.contacts]
     if all(points) and n_limbs <= 3:
         yield f"{n_limbs} limbs with point contacts: while one swings, {n_limbs - 1} are left, which can't be in balance but by accident"

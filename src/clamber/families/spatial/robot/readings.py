@@ -1,4 +1,4 @@
-"""Quantities of joints in robot files: an angle or a torque where a joint turns, a length or a force where it slides."""
+"""Quantities of joints in robot files: angle, torque or inertia where a joint turns, length, force or mass where it slides."""
 
 from typing import Annotated, NamedTuple
 
@@ -14,7 +14,7 @@ class Reading(NamedTuple):
     """A quantity whose dimension the joint decides that it is said of."""
 
     value: float
-    """[rad], [m], [N m] or [N]."""
+    """[rad], [m], [N m], [N], [kg m^2] or [kg], or a rate of the first two."""
     dimension: str
 
 
@@ -43,7 +43,9 @@ Load = Annotated[Reading, _OneOf("torque", "force")]
 """Of a motor: a torque, or a force where its joint slides."""
 Rate = Annotated[Reading, _OneOf("angular speed", "speed")]
 """Of a joint: an angular speed, or a speed where it slides."""
-LINEAR = ("length", "force", "speed")
+Inertia = Annotated[Reading, _OneOf("inertia", "mass")]
+"""Of a rotor, at its joint: an inertia, or a mass where its joint slides."""
+LINEAR = ("length", "force", "speed", "mass")
 """Dimensions of what is said of sliding joints."""
 
 

@@ -23,7 +23,7 @@ from .contact_kinds import ContactKind, build_contact, stated_contacts
 from .contacts import Contact, Strength
 from .handling import Handling, Payload
 from .model import read_model
-from .readings import LINEAR, Load, Position, Rate, Reading, shown
+from .readings import LINEAR, Inertia, Load, Position, Rate, Reading, shown
 from .tree import Frame, Joint, Tree, read_tree, rooted_at
 
 SCHEMA: Final = "clamber-robot-1"
@@ -63,6 +63,8 @@ class LimbSpec:
     """Joint -> largest torque or force of its motor, in place of the model's."""
     speeds: Mapping[StrictStr, Rate] = field(default_factory=dict)
     """Joint -> speed of its motor without load, in place of the model's."""
+    rotors: Mapping[StrictStr, Inertia] = field(default_factory=dict)
+    """Joint -> inertia of its motor's rotor at the joint, gear ratio squared and all, or mass, in place of the model's."""
     radius: NonNegativeLength | None = None
     """Of its links' capsules [m]; None: as thick as their shapes."""
 
@@ -287,8 +289,9 @@ def _limb(
         told = f"no joint is this limb's alone between the base '{robot.base}' and it; name a site or link behind one"
         raise document.problem(f"{key}.tip", told)
     own = {joint.name: joint for joint in joints}
-    for word, stated in (("limits", limb.limits), ("torques", limb.torques), ("speeds", limb.speeds)):
-        for name in stated:
+    stated = {"limits": limb.limits, "torques": limb.torques, "speeds": limb.speeds, "rotors": limb.rotors}
+    for word, names in stated.items():
+        for name in names:
             _check_joint(document, f"{key}.{word}.{name}", name, own)
     bounds = [_bounds(document, robot, limb, joint) for joint in joints]
     torque = [_torque(document, robot, limb, joint) for joint in joints]
@@ -305,7 +308,7 @@ def _limb(
                 raise document.problem(f"{key}.nominal", told + ", its limits less 'joint_room'")
     return LimbChoice(
         name=limb.name,
-        joints=joints,
+        joints=tuple(replace(joint, rotor=_rotor(document, limb, joint)) for joint in joints),
         lower=tuple(lower for lower, _ in bounds),
         upper=tuple(upper for _, upper in bounds),
         torque=tuple(torque),
@@ -354,6 +357,12 @@ def _speed(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -
     return _positive(document, key, joint, limb.speeds.get(joint.name)) or joint.speed or usual or math.inf
 
 
+def _rotor(document: Document, limb: LimbSpec, joint: Joint) -> float:
+    """Inertia [kg m^2] or mass [kg] of a joint's rotor; 0 where nothing states one."""
+    key = f"limb.{limb.name}.rotors.{joint.name}"
+    return _positive(document, key, joint, limb.rotors.get(joint.name)) or joint.rotor
+
+
 def _positive(document: Document, key: str, joint: Joint, reading: Reading | None) -> float | None:
     """What the file states of a joint's motor; None: nothing."""
     if reading is None:
@@ -393,8 +402,8 @@ def _check_dimension(document: Document, key: str, joint: Joint, reading: Readin
     """Makes sure that what is said of a joint is of its dimension."""
     if (reading.dimension in LINEAR) != joint.sliding:
         what = (
-            "slides: state a length or a force, or a speed"
+            "slides: state a length, a force, a speed or a mass"
             if joint.sliding
-            else "turns: state an angle or a torque, or an angular speed"
+            else "turns: state an angle, a torque, an angular speed or an inertia"
         )
         raise document.problem(key, f"joint {joint.name} {what}")

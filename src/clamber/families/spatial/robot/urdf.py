@@ -98,6 +98,8 @@ def _joints(root: ElementTree.Element, path: Path, notes: Notes) -> dict[str, Jo
     followers: dict[tuple[str, float], list[str]] = {}
     for joint in root.findall("joint"):
         name, kind = _name(joint, "joint", path), joint.get("type", "fixed")
+        if name in found:
+            raise FileError(str(path), f"<joint name='{name}'> is there twice", "names of joints must differ")
         if kind not in (*MOVING, "fixed"):
             odd["kind"].append(f"{name} ({kind})")
             joint.set("type", "fixed")
