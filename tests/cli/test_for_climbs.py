@@ -59,4 +59,4 @@ def test_a_law_that_is_not_there_is_refused_before_a_plan_is_made(clamber: Run) 
 def test_trials_of_walks_have_no_picture(clamber: Run) -> None:
     code, out, err = clamber("trials", "level-walk", "--output", "trials.png")
     assert (code, out) == (2, "")
-    assert "a walk has no picture of trials" in err
+    assert "a walk has no picture of trials; --json" in err

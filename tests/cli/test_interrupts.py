@@ -289,6 +289,7 @@ def test_a_batch_that_is_interrupted_goes_on_where_it_was(words: str, first: str
         ("reach h --hangs", r"\d\d\d\d+ stances", r"incomplete: interrupted"),
         ("plan circle --planner exact --stances 20000000", r"\d\d\d\d+ stances", r"bounded: no plan"),
         ("bench control seeds", r"seeds each", r"us  "),
+        ("run ladder-hand -o film.gif", r"frame [1-9]", r"not made, as it was interrupted: film.gif"),
     ],
 )
 def test_what_there_is_is_told(words: str, first: str, kept: str, tmp_path: Path) -> None:

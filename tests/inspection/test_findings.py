@@ -16,6 +16,7 @@ from clamber.families.walker.inspection import inspect_ground, inspect_walker
 from clamber.families.walker.robot import WalkerRobot
 from clamber.families.walker.world.ground import load_ground
 from clamber.inspection.open_file import inspect_file, inspect_task
+from clamber.planning.problem.problems import pose_problem
 from clamber.tasks import load_task
 from clamber.tasks.robots import load_robot
 from clamber.units import DEGREE, GRAVITY
@@ -155,6 +156,17 @@ def test_margins_of_a_start_are_those_of_the_first_step_that_stays() -> None:
         hold = task.world.by_number(task.start.holds[limb.name])  # type: ignore[union-attr]
         gaps.append(limb.length - math.hypot(task.start.x + limb.port_x - hold.x, task.start.y + limb.port_y - hold.y))
     assert found["reach"] == pytest.approx(min(gaps), abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["chimney-hexapod", "wall-gripper", "ladder"])
+def test_the_start_that_is_judged_is_the_one_that_plans_begin_with(name: str) -> None:
+    """In a chimney the best of all stances breaks a check that the best of those that may be does not."""
+    task = load_task(name)
+    start = pose_problem(task).problem.start
+    found = {margin.check: margin for margin in inspect_task(task).margins}
+    assert all(margin.holds for margin in found.values() if margin.hard)
+    if "share" in start.dtype.names:
+        assert found["equilibrium"].margin == pytest.approx(float(start["share"][0]) - task.rules.need, abs=1e-9)  # type: ignore[attr-defined]
 
 
 def test_what_is_odd_about_a_task() -> None:

@@ -147,11 +147,13 @@ def _summary(verdict: "Verdict") -> str:
     loaded = any(check.name == "torque" for check in verdict.checks)
     held = f"; holds: {held}" if held else ""
     reached = "goal reached" if verdict.reached else "goal not reached"
-    torque = f"largest torque {verdict.max_torque / size:.{digits}f} {unit}, power {verdict.max_power:.1f} W, "
+    loads = f"largest torque {verdict.max_torque / size:.{digits}f} {unit}" if loaded else ""
+    if loaded and verdict.max_power is not None:
+        loads += f", power {verdict.max_power:.1f} W, energy {verdict.energy:.0f} J"
     return (
         f"{verdict.steps} of {verdict.length} actions of '{verdict.task}' hold; "
         f"{reached} ({verdict.goals_met} of {verdict.goals})\n"
-        f"{f'{torque}energy {verdict.energy:.0f} J' + chr(10) if loaded else ''}"
+        f"{loads + chr(10) if loads else ''}"
         f"end: {describe_body_pose(verdict.pose_axes, verdict.pose, units)}{held}"
     )
 

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from ..errors import SpecError, describe_choices
+from ..errors import SpecError, StartError, describe_choices
 from ..family import Family, NotOfFamilyError, families, family_of, named_family
 from ..files import Document, is_path, read_toml, unknown_name
 from ..planning.problem.body_pose import describe_body_pose
@@ -27,10 +27,19 @@ LENIENT: Final = ("rules.hard=[]",)
 """With hard checks, a start that violates one is an error."""
 
 
+def _started(task: Task) -> CompiledProblem:
+    """The task's problem; where its start breaks a hard check, that of the task without them."""
+    family = plan_family(task)
+    try:
+        return family.problem(task)
+    except (SpecError, StartError):
+        return family.problem(change_task(task, LENIENT))
+
+
 def start_margins(task: Task) -> tuple[Margin, ...]:
     """Every check of the start stance, those that it violates too, in the order of the family's checks."""
     family = plan_family(task)
-    replay = family.problem(change_task(task, LENIENT)).replay(np.array([pack(0)], np.int32), go_on=True)
+    replay = _started(task).replay(np.array([pack(0)], np.int32), go_on=True)
     hard = family.hard(task)
     return tuple(
         Margin(
@@ -48,7 +57,7 @@ def inspect_task(task: Task) -> Finding:
     """Facts of a task, whether its start holds and by how much, and what is odd about it."""
     margins = start_margins(task)
     family, units = plan_family(task), units_of(task.document)
-    problem = family.problem(change_task(task, LENIENT))
+    problem = _started(task)
     start = describe_body_pose(family.pose_axes, family.pose(task, problem.start[0]), units)
     facts = {
         "robot": task.robot.name,

@@ -300,7 +300,7 @@ class Dynamics(ABC):
             NotOfFamilyError: If there is none.
             SuffixError: If it cannot.
         """
-        raise NotOfFamilyError(self.kind, "picture of trials")
+        raise NotOfFamilyError(self.kind, "picture of trials; --json and --store keep what they say")
 
     def draw_trials(self, trials: Any, file: Path) -> None:
         """Draw what trials say together."""

@@ -21,6 +21,7 @@ from .browser.viewer_content import Scenes
 from .panel import Gauges
 from .pictures import Pictures
 from .recording import Part, PlanView
+from .route import count_actions
 from .scene import Bounds, draw_region, fit_bounds, goal_box, set_axes
 from .view import Layout, Picture
 
@@ -207,7 +208,8 @@ def draw_route(task: Any, replay: Replay) -> Figure:
     wall.plot(way[:, 0], way[:, 1], color=style.INK, lw=1.2, zorder=3)
     for at in (moments[0], moments[-1]):
         PlainArtists(wall, len(at.holds)).update(at)
-    panel.text(0.0, layout.panel[1], f"to {pose_words(task, moments[-1])}", fontsize=8.5, va="top")
+    told = f"{count_actions(task, replay)}\nto {pose_words(task, moments[-1])}"
+    panel.text(0.0, layout.panel[1], told, fontsize=8.5, va="top")
     layout.fix_panel(panel)
     return figure
 

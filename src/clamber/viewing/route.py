@@ -1,14 +1,14 @@
 """What still pictures of whole plans share: ghosts along the way, the way itself, facts and strip in the panel."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from ..planning.problem.problem import Replay
-from ..planning.problem.problems import Normalisation
+from ..planning.problem.problems import normalisation_of, plan_family
 from ..types import Floats
 from . import style
 from .margins import all_limiting, grade
@@ -54,20 +54,20 @@ def draw_way(wall: Axes, way: Floats) -> None:
     wall.add_collection(line)
 
 
-def count_actions(replay: Replay) -> str:
-    """How many actions a plan has, and whether they hold."""
+def count_actions(task: Any, replay: Replay) -> str:
+    """How many actions a plan has, whether they hold, and that they do not reach the goal, where they don't."""
     actions, violated = len(replay.reasons), int(np.sum(replay.reasons >= 0))
-    return f"{actions}, all of them hold" if replay.ok else f"{actions}, {violated} of them violated"
+    goals, met = len(task.goals), plan_family(task).goals_met(replay.stances[-1])
+    held = f"{actions}, all of them hold" if replay.ok else f"{actions}, {violated} of them violated"
+    return held if met >= goals else f"{held}; goal not reached ({met} of {goals})"
 
 
-def write_facts(
-    panel: Axes, replay: Replay, normalisation: Normalisation, facts: Sequence[tuple[str, str]], height: float
-) -> None:
+def write_facts(panel: Axes, task: Any, replay: Replay, facts: Sequence[tuple[str, str]], height: float) -> None:
     """Write what is to be said of a whole plan, its nearest limit and its strip at the top of the panel."""
-    limits = all_limiting(normalisation, replay)
+    limits = all_limiting(normalisation_of(task), replay)
     worst = min((limit for limit in limits if limit is not None), key=lambda limit: limit.share, default=None)
     nearest = "not judged" if worst is None else f"{worst} at step {limits.index(worst) + 1}"
-    for k, (name, words) in enumerate((("Actions", count_actions(replay)), *facts, ("Nearest limit", nearest))):
+    for k, (name, words) in enumerate((("Actions", count_actions(task, replay)), *facts, ("Nearest limit", nearest))):
         panel.text(0.0, height - 0.2 * k, name, fontsize=8, va="top", color=style.QUIET)
         panel.text(1.05, height - 0.2 * k, words, fontsize=8, va="top")
     strip = StepStrip(panel, [grade(limit) for limit in limits], Place(0.0, height - 1.0, PANEL_WIDTH - 0.1))

@@ -73,36 +73,51 @@ def carry_out(work: Work, words: RunOptions, command: str) -> None:
             raise typer.Exit(130) from None
         finally:
             tell_cuts(len(cuts))
-    _tell(work, words, run, command)
-    raise typer.Exit(130 if run.report.reason == "interrupted" else 0 if run.done else 1)
+    interrupted = _tell(work, words, run, command)
+    raise typer.Exit(130 if interrupted else 0 if run.done else 1)
 
 
-def _tell(work: Work, words: RunOptions, run: Any, command: str) -> None:
-    """Write the files of a run and print it."""
-    if words.outputs:
-        from ...viewing.pictures import ANIMATIONS, draw_run
-
-    left_out: list[Path] = []
-    if run.report.reason == "interrupted":  # films and pages take many seconds
-        left_out = [file for file in words.outputs if file.suffix.lower() in ANIMATIONS]
-        left_out += [] if words.report is None else [words.report]
+def _tell(work: Work, words: RunOptions, run: Any, command: str) -> bool:
+    """Write the files of a run and print it; whether Ctrl-C cut the run or its drawing short."""
+    missing = [file for file in words.outputs if file != words.growing]
+    missing += [] if words.report is None else [words.report]
+    interrupted: bool = run.report.reason == "interrupted"
+    pages: list[Path] = []
     with LiveLine(stderr(), quiet=words.quiet) as line:
-        for file in words.outputs:
-            if file not in (words.growing, *left_out):
-                draw_run(run, file, line.counting(f"{file.name}: frame"))
-    written = tuple(file for file in words.written(run.log_gap) if file not in left_out)
-    if words.report is not None and words.report not in left_out:
-        from ...viewing.report.run_page import write_run_report
-
-        written = (*written, write_run_report(run, command, words.report))
+        try:
+            _draw(words, run, command, missing, pages, line)
+        except KeyboardInterrupt:  # the run is over, and what it came to is told all the same
+            answer()
+            line.say("interrupted while files were drawn; the run was over")
+            interrupted = True
+    written = [file for file in words.written(run.log_gap) if file not in missing] + pages
     if words.as_json:
         print_json(run)
-        return
+        return interrupted
     console = stdout()
     work.dynamics.print_run(console, run)
     if run.log_gap is not None:
         console.print(str(run.log_gap), soft_wrap=True)
     for path in written:
         console.print(f"written: {path}", soft_wrap=True)
-    if left_out:
-        console.print(f"not made, as the run was interrupted: {', '.join(map(str, left_out))}", soft_wrap=True)
+    if missing:
+        console.print(f"not made, as it was interrupted: {', '.join(map(str, missing))}", soft_wrap=True)
+    return interrupted
+
+
+def _draw(words: RunOptions, run: Any, command: str, missing: list[Path], pages: list[Path], line: LiveLine) -> None:
+    """Draw the files and pages that are missing, and strike them off; of a run that was interrupted no films and pages, which take long."""
+    if not missing:
+        return
+    from ...viewing.pictures import ANIMATIONS, draw_run
+    from ...viewing.report.run_page import write_run_report
+
+    for file in tuple(missing):
+        is_page = file == words.report
+        if run.report.reason == "interrupted" and (is_page or file.suffix.lower() in ANIMATIONS):
+            continue
+        if is_page:
+            pages.append(write_run_report(run, command, file))
+        else:
+            draw_run(run, file, line.counting(f"{file.name}: frame"))
+        missing.remove(file)

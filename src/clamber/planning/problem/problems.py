@@ -245,9 +245,9 @@ class PlanFamily(ABC):
         """What a plan may be asked to have little of, beside its actions: name -> cost; one adds up, one is a largest value."""
         return {}
 
-    def power(self, stance: np.void) -> float:
-        """Power that holding the stance takes [W]; 0 in models without forces."""
-        return 0.0
+    def power(self, stance: np.void) -> float | None:
+        """Electrical power that holding the stance takes [W]; None where the model has no motors' losses."""
+        return None
 
     def duration(self, task: Any) -> float:
         """Time that one action takes [s], for its energy; 0 in models without forces."""

@@ -170,10 +170,10 @@ class Verdict(Jsonable):
     goals_met: Count
     max_torque: Annotated[float, Key("max_torque_oz_in", per=OZ_IN), Key("max_torque_Nm")]
     """Largest joint torque of the actions that hold."""
-    max_power: Annotated[float, Key("max_power_W")]
-    """Largest electrical power that holding a stance takes."""
-    energy: Annotated[float, Key("energy_J")]
-    """Electrical energy of the actions that hold: power of each stance times the time of an action."""
+    max_power: Annotated[float | None, Key("max_power_W")]
+    """Largest electrical power that holding a stance takes; None where the family's model has none."""
+    energy: Annotated[float | None, Key("energy_J")]
+    """Electrical energy of the actions that hold: power of each stance times the time of an action; None likewise."""
     pose: Annotated[tuple[float, ...], HIDDEN]
     """Body at the end, as `pose_axes` have it [m] or [rad]; before the violating action where the replay stopped there."""
     pose_axes: Annotated[tuple[PoseAxis, ...], HIDDEN]
@@ -325,8 +325,8 @@ def check_plan(
         goals=len(task.goals),
         goals_met=family.goals_met(last),
         max_torque=max((row.max_torque for row in held if row.max_torque is not None), default=0.0),
-        max_power=max(powers, default=0.0),
-        energy=family.duration(task) * sum(powers),
+        max_power=max(powers, default=None),
+        energy=family.duration(task) * sum(powers) if powers else None,
         pose=family.pose(task, last),
         pose_axes=family.pose_axes,
         holds=family.holds(task, last),

@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
@@ -132,7 +131,7 @@ def climb_route(task: LimbedTask, replay: Replay) -> Figure:
     _draw_ghosts(wall, task, shown, bounds)
     draw_way(wall, body_way(task, replay))
     height = layout.panel[1]
-    write_facts(panel, replay, normalisation_of(task), _facts(task, replay), height)
+    write_facts(panel, task, replay, _facts(task, replay), height)
     _write_uses(panel, uses, *((PANEL_WIDTH + 0.4, height) if layout.below else (0.0, height - FACTS)))
     layout.fix_panel(panel)
     return figure

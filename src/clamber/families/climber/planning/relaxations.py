@@ -15,7 +15,6 @@ from ....files import Document
 from ....planning.exact.costs import Aim
 from ....planning.infeasibility.relaxations import Dial, Relaxation, Switch, key_dial
 from ....planning.infeasibility.trial import Answer, Trial
-from ....planning.problem.problems import plan_family
 from ....toml_text import toml_value
 from ....units import DEGREE, OZ_IN
 from .inventory import DIRECTIONS, whole_kinds
@@ -83,8 +82,7 @@ def _least_torque(trial: Trial, lifted: Answer, *, size: float) -> float | None:
 def _peak_power(trial: Trial, lifted: Answer) -> float:
     """The most power that a plan found without a limit takes [W]."""
     assert lifted.problem is not None
-    family = plan_family(trial.task)
-    return max(family.power(stance) for stance in lifted.problem.replay(lifted.codes).stances)
+    return float(lifted.problem.replay(lifted.codes).stances["power"].max())
 
 
 def joint_dials(task: LimbedTask) -> Iterator[Dial]:

@@ -11,7 +11,6 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import normalisation_of
 from ....tasks.regions import GoalBox
 from ....types import Floats
 from ....viewing import style
@@ -98,7 +97,7 @@ def _write_panel(layout: Layout, panel: Axes, task: SpatialTask, replay: Replay,
         ("End", describe_pose(task, moments[-1].pose).split(", yaw")[0]),
     )
     height = layout.panel[1]
-    write_facts(panel, replay, normalisation_of(task), facts, height)
+    write_facts(panel, task, replay, facts, height)
     names = task.robot.chains.limb_names
     for limb, name in enumerate(names):
         x, y = 0.05 + 0.9 * (limb % 4), height - FACTS - 0.1 - 0.16 * (limb // 4)

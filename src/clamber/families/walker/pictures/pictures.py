@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ....planning.problem.problem import Replay
-from ....planning.problem.problems import normalisation_of
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
@@ -43,7 +42,7 @@ def walker_route(task: WalkerTask, replay: Replay) -> Figure:
     swaps = int(np.sum(np.diff(replay.stances["stands"]) != 0))
     facts = ("Swaps", str(swaps)), ("Way", f"{way / size:.0f} {unit}, Delta-frame")
     height = layout.panel[1]
-    write_facts(panel, replay, normalisation_of(task), facts, height)
+    write_facts(panel, task, replay, facts, height)
     for f, (name, colour) in enumerate(zip(FRAME_TITLES, COLOURS, strict=True)):
         x, y = 1.5 * f + 0.05, height - FACTS - 0.1
         panel.add_line(Line2D([x], [y], marker="o", ms=4, color=colour, ls=""))
