@@ -10,7 +10,9 @@ import pytest
 from spatial_models import FOUR_JOINTS, LOOP, TWO_ARMS, Case, document_of, robot_of
 
 from clamber.errors import FileError, SpecError
+from clamber.families.spatial.inspection import inspect_robot
 from clamber.families.spatial.robot.model import read_model
+from clamber.families.spatial.robot.parts import Motors
 from clamber.families.spatial.robot.robot import build_robot, whole_document
 from clamber.families.spatial.robot.starter import import_robot
 from clamber.files import Document, read_toml
@@ -97,6 +99,9 @@ REFUSED = {
     "two parents": (leg(JOINT.format("y", "fixed", "base", "foot", "")), "<link name='foot'> is the child of two joints"),
     "two roots": (leg("<link name='x'/>"), r"2 links without a parent \(base, x\)"),
     "the same link twice": (leg("<link name='foot'/>"), "<link name='foot'> is there twice"),
+    "the same joint twice": (
+        leg("<link name='x'/>" + JOINT.format("knee", "revolute", "foot", "x", LIMIT)), "<joint name='knee'> is there twice"
+    ),
     "no name": (leg("<link/>"), "a <link> has no name"),
     "no limb": (f"<robot name='r'>{LINK.format('base', 1, 1, 1, 1)}</robot>", "no limb: no joint moves.*base.*two joints"),
     "one joint": (leg().replace(*KNEE), r"looked at chains to thigh \(1 joints, "),
@@ -114,6 +119,32 @@ def test_what_is_no_robot_is_refused_with_file_element_and_what_is_allowed(tmp_p
     text, told = REFUSED[case]
     with pytest.raises(FileError, match=f"(?s)model.urdf.*{told}"):
         imported(tmp_path, text)
+
+
+def test_rotors_that_a_urdf_cannot_state_are_guessed_by_torques_and_read_as_they_are_stated(tmp_path: Path) -> None:
+    found = imported(tmp_path, leg())
+    assert "2 joints: no inertia of rotors in the model; guessed by their torques" in found.repaired
+    (tmp_path / "robot.toml").write_text(found.text)
+    robot = build_robot(read_robot(str(tmp_path / "robot.toml")))
+    assert Motors.of(robot).rotor == pytest.approx([0.005, 0.005])  # of 5 N m: less would not lift 3.5 kg by the leg
+    assert not any("rotors" in line for line in inspect_robot(robot).odd)
+
+    data = read_robot(str(tmp_path / "robot.toml")).data
+    stated = data["limb"][0] | {"rotors": {"knee": "20 g cm^2"}}
+    other = build_robot(Document("robot", data | {"limb": [stated]}, folder=tmp_path))
+    assert Motors.of(other).rotor == pytest.approx([0.0, 2e-6])
+    assert any("hip: no inertia of rotors" in line for line in inspect_robot(other).odd)
+    for wrong, said in (("2 kg", "joint knee turns: state"), ("0 kg m^2", "must be more than 0"), ("2 m", "rotors")):
+        spoilt = data["limb"][0] | {"rotors": {"knee": wrong}}
+        with pytest.raises(SpecError, match=f"rotors.*knee.*{said}|{said}"):
+            build_robot(Document("robot", data | {"limb": [spoilt]}, folder=tmp_path))
+
+
+def test_limits_in_degrees_where_radians_belong_are_odd(tmp_path: Path) -> None:
+    found = imported(tmp_path, leg(limit="<limit lower='-90' upper='45' effort='5' velocity='1'/>"))
+    (tmp_path / "robot.toml").write_text(found.text)
+    odd = inspect_robot(build_robot(read_robot(str(tmp_path / "robot.toml")))).odd
+    assert any("hip, knee may turn 21.5 times round; are limits in degrees" in line for line in odd)
 
 
 def test_torques_of_0_and_limits_that_are_absent_are_guessed_and_marked(tmp_path: Path) -> None:
@@ -204,7 +235,7 @@ WRONG_LIMB = {
     "joint": ({"limits": {"r2": ["0 deg", "1 deg"]}}, r"limb.left.limits.r2.*no such joint; there are l1, l2"),
     "order": ({"limits": {"l1": ["2 deg", "1 deg"]}}, r"limb.left.limits.l1.*least position must be below"),
     "unit": ({"limits": {"l2": ["0 deg", "1 deg"]}}, r"limb.left.limits.l2.*joint l2 slides: state a length"),
-    "torque": ({"torques": {"l1": "3 N"}}, r"limb.left.torques.l1.*joint l1 turns: state an angle or a torque"),
+    "torque": ({"torques": {"l1": "3 N"}}, r"limb.left.torques.l1.*joint l1 turns: state an angle, a torque"),
     "no torque": ({"torques": {"l1": "0 N m"}}, r"limb.left.torques.l1.*more than 0"),
     "count": ({"nominal": ["0 deg"]}, r"limb.left.nominal.*must have 2 positions, of l1, l2"),
     "nominal": ({"nominal": ["80 deg", "0 cm"]}, r"limb.left.nominal.*that of l1 must be -51.57 deg to 63.03 deg"),
