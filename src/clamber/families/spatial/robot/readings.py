@@ -6,6 +6,7 @@ from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from ....errors import UnitError
+from ....files import Document
 from ....units import DEGREE, read_quantity
 from .tree import Joint
 
@@ -52,3 +53,24 @@ LINEAR = ("length", "force", "speed", "mass")
 def shown(joint: Joint, position: float) -> str:
     """A joint's position in words."""
     return f"{position:.4g} m" if joint.sliding else f"{position / DEGREE:.4g} deg"
+
+
+def check_dimension(document: Document, key: str, joint: Joint, reading: Reading) -> None:
+    """Makes sure that what is said of a joint is of its dimension."""
+    if (reading.dimension in LINEAR) != joint.sliding:
+        what = (
+            "slides: state a length, a force, a speed or a mass"
+            if joint.sliding
+            else "turns: state an angle, a torque, an angular speed or an inertia"
+        )
+        raise document.problem(key, f"joint {joint.name} {what}")
+
+
+def positive(document: Document, key: str, joint: Joint, reading: Reading | None) -> float | None:
+    """What the file states of a joint's motor; None: nothing."""
+    if reading is None:
+        return None
+    check_dimension(document, key, joint, reading)
+    if not reading.value > 0.0:
+        raise document.problem(key, "must be more than 0")
+    return reading.value

@@ -23,7 +23,7 @@ from .contact_kinds import ContactKind, build_contact, stated_contacts
 from .contacts import Contact, Strength
 from .handling import Handling, Payload
 from .model import read_model
-from .readings import LINEAR, Inertia, Load, Position, Rate, Reading, shown
+from .readings import Inertia, Load, Position, Rate, check_dimension, positive, shown
 from .tree import Frame, Joint, Tree, read_tree, rooted_at
 
 SCHEMA: Final = "clamber-robot-1"
@@ -218,7 +218,7 @@ def _built(robot: RobotSpec, tree: Tree, document: Document, path: Path | None) 
     joints = {joint.name: joint for joint in tree.joints}
     for name, reading in robot.trunk.items():
         _check_joint(document, f"trunk.{name}", name, joints)
-        _check_dimension(document, f"trunk.{name}", joints[name], reading)
+        check_dimension(document, f"trunk.{name}", joints[name], reading)
     fixed = {joint.name for joint in tree.joints if joint.held is not None} | set(robot.trunk)
     tips = {limb.name: _tip_link(document, limb, tree) for limb in robot.limb}
     paths = {
@@ -300,7 +300,7 @@ def _limb(
         if len(limb.nominal) != len(joints):
             raise document.problem(f"{key}.nominal", f"must have {len(joints)} positions, of {', '.join(own)}")
         for joint, reading in zip(joints, limb.nominal, strict=True):
-            _check_dimension(document, f"{key}.nominal", joint, reading)
+            check_dimension(document, f"{key}.nominal", joint, reading)
         nominal = [reading.value for reading in limb.nominal]
         for joint, value, (lower, upper) in zip(joints, nominal, bounds, strict=True):
             if not lower <= value <= upper:
@@ -327,7 +327,7 @@ def _bounds(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) 
     if joint.name in limb.limits:
         readings = limb.limits[joint.name]
         for reading in readings:
-            _check_dimension(document, key, joint, reading)
+            check_dimension(document, key, joint, reading)
         lower, upper = (reading.value for reading in readings)
     elif joint.limits is not None:
         lower, upper = joint.limits
@@ -344,7 +344,7 @@ def _bounds(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) 
 def _torque(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -> float:
     """Torque [N m] or force [N] of a joint's motor that may be used."""
     key = f"limb.{limb.name}.torques.{joint.name}"
-    torque = _positive(document, key, joint, limb.torques.get(joint.name)) or joint.torque
+    torque = positive(document, key, joint, limb.torques.get(joint.name)) or joint.torque
     if torque is None:
         raise document.problem(key, "must be given, as the model states no torque of this joint, such as '10 N m'")
     return robot.torque_share * torque
@@ -354,23 +354,13 @@ def _speed(document: Document, robot: RobotSpec, limb: LimbSpec, joint: Joint) -
     """Speed of a joint's motor without load [rad/s] or [m/s]; infinite where nothing states one."""
     key = f"limb.{limb.name}.speeds.{joint.name}"
     usual = None if joint.sliding else robot.speed
-    return _positive(document, key, joint, limb.speeds.get(joint.name)) or joint.speed or usual or math.inf
+    return positive(document, key, joint, limb.speeds.get(joint.name)) or joint.speed or usual or math.inf
 
 
 def _rotor(document: Document, limb: LimbSpec, joint: Joint) -> float:
     """Inertia [kg m^2] or mass [kg] of a joint's rotor; 0 where nothing states one."""
     key = f"limb.{limb.name}.rotors.{joint.name}"
-    return _positive(document, key, joint, limb.rotors.get(joint.name)) or joint.rotor
-
-
-def _positive(document: Document, key: str, joint: Joint, reading: Reading | None) -> float | None:
-    """What the file states of a joint's motor; None: nothing."""
-    if reading is None:
-        return None
-    _check_dimension(document, key, joint, reading)
-    if not reading.value > 0.0:
-        raise document.problem(key, "must be more than 0")
-    return reading.value
+    return positive(document, key, joint, limb.rotors.get(joint.name)) or joint.rotor
 
 
 def _tip(document: Document, limb: LimbSpec, tree: Tree, last: Joint) -> Frame:
@@ -396,14 +386,3 @@ def _tip(document: Document, limb: LimbSpec, tree: Tree, last: Joint) -> Frame:
 def _check_joint(document: Document, key: str, name: str, joints: Mapping[str, Joint]) -> None:
     if name not in joints:
         raise document.problem(key, f"no such joint; there are {describe_choices(name, tuple(joints))}")
-
-
-def _check_dimension(document: Document, key: str, joint: Joint, reading: Reading) -> None:
-    """Makes sure that what is said of a joint is of its dimension."""
-    if (reading.dimension in LINEAR) != joint.sliding:
-        what = (
-            "slides: state a length, a force, a speed or a mass"
-            if joint.sliding
-            else "turns: state an angle, a torque, an angular speed or an inertia"
-        )
-        raise document.problem(key, f"joint {joint.name} {what}")
