@@ -15,7 +15,7 @@ from .limb_model import limb_spec
 
 
 class MujocoLimb(SimulatedLimb):
-    """A batch of equal limbs in MuJoCo, with the sensors and motors of `flaws`. A `LimbPlant`.
+    """A batch of equal limbs in MuJoCo, with the sensors and motors of `flaws`. A `Plant`.
 
     Args:
         chain, flaws, gears, batch: As of any `SimulatedLimb`.

@@ -13,7 +13,7 @@ from .plant_rules import PlantError
 
 
 class OdeLimb(SimulatedLimb):
-    """A batch of equal limbs by the ODE of `ode_steps`, with the sensors and motors of `flaws`. A `LimbPlant`.
+    """A batch of equal limbs by the ODE of `ode_steps`, with the sensors and motors of `flaws`. A `Plant`.
 
     It knows the joints' reflected inertia, viscous and Coulomb friction and a push on the tip, and shares the electronics of every plant.
 
