@@ -21,7 +21,7 @@ from .browser.viewer_content import Scenes
 from .panel import Gauges
 from .pictures import Pictures
 from .recording import Part, PlanView
-from .route import count_actions
+from .route import count_actions, whole_title
 from .scene import Bounds, draw_region, fit_bounds, goal_box, set_axes
 from .view import Layout, Picture
 
@@ -201,7 +201,7 @@ def draw_route(task: Any, replay: Replay) -> Figure:
     bounds = bounds_of(task, moments)
     layout = Layout(bounds, FACTS_HEIGHT)
     figure, wall, panel, _ = layout.figure(
-        f"The whole plan: {len(replay.reasons)} actions", f"{task.title or task.name}. Line: way of the body"
+        whole_title("plan", replay), f"{task.title or task.name}. Line: way of the body"
     )
     draw_world(wall, task, bounds)
     way = np.array([at.pose[:2] for at in moments])

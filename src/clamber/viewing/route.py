@@ -54,6 +54,12 @@ def draw_way(wall: Axes, way: Floats) -> None:
     wall.add_collection(line)
 
 
+def whole_title(kind: str, replay: Replay) -> str:
+    """Title of the picture of a whole plan, walk or climb."""
+    count = len(replay.reasons)
+    return f"The whole {kind}: {count} action{'' if count == 1 else 's'}"
+
+
 def count_actions(task: Any, replay: Replay) -> str:
     """How many actions a plan has, whether they hold, and that they do not reach the goal, where they don't."""
     actions, violated = len(replay.reasons), int(np.sum(replay.reasons >= 0))

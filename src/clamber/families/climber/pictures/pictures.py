@@ -16,7 +16,7 @@ from ....types import Floats
 from ....viewing import style
 from ....viewing.output import CANVASES, check_suffix, drawing, save_figure
 from ....viewing.pictures import Pictures
-from ....viewing.route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, write_facts
+from ....viewing.route import FACTS, ROW, draw_way, label_ghost, pick_ghosts, whole_title, write_facts
 from ....viewing.scene import Bounds
 from ....viewing.style import styled
 from ....viewing.view import PANEL_WIDTH, Layout, is_wide
@@ -124,9 +124,8 @@ def climb_route(task: LimbedTask, replay: Replay) -> Figure:
     ]
     words = 0.4 + sum(ROW * len(rows) + 0.05 for rows in uses)
     layout = Layout(bounds, max(words, FACTS) if is_wide(bounds) else FACTS + words, height=6.6)
-    title = f"The whole climb: {len(replay.reasons)} actions"
     subtitle = f"{task.title}. Line: way of the body, dark at the start"
-    figure, wall, panel, _ = layout.figure(title, subtitle)
+    figure, wall, panel, _ = layout.figure(whole_title("climb", replay), subtitle)
     draw_scene(wall, task, bounds)
     _draw_ghosts(wall, task, shown, bounds)
     draw_way(wall, body_way(task, replay))

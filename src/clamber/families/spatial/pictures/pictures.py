@@ -15,7 +15,7 @@ from ....tasks.regions import GoalBox
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Chart, Pictures
-from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
+from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, whole_title, write_facts
 from ....viewing.scene import GOAL_WORDS, Bounds, goal_box, halo
 from ....viewing.view import Layout
 from ..planning.surface import on_guide
@@ -49,7 +49,7 @@ def draw_route(task: SpatialTask, replay: Replay, camera: Camera) -> Figure:
     shown, bounds = stance_bounds(task, camera, moments)
     layout = Layout(bounds, FACTS + 0.3, height=6.6)
     subtitle = f"{task.title or task.name}. Line: path of the body, dark at the start"
-    figure, wall, panel, _ = layout.figure(f"The whole plan: {len(replay.reasons)} actions", subtitle)
+    figure, wall, panel, _ = layout.figure(whole_title("plan", replay), subtitle)
     draw_world(wall, task, camera, shown, bounds)
     _mark_used(wall, task, camera, moments, bounds)
     path = np.array([at.body.place for at in moments])

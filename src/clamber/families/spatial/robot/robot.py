@@ -162,10 +162,15 @@ def whole_document(document: Document) -> Document:
     """A robot's document with what it takes from the files of its model and its contacts, so that it can be built where those are not.
 
     Raises:
-        SpecError: If it names no model, or a contact that there is not.
+        SpecError: If it names no model, or a model or contact that there is not.
         FileError: If a file can't be read.
     """
-    parts = document.data["parts"] if "parts" in document.data else _plain(read_model(model_path(document)).tree)
+    parts = document.data.get("parts")
+    if parts is None:
+        path = model_path(document)
+        if not path.exists():
+            raise document.problem("model", f"there is no {path}; paths count from where the robot's file lies")
+        parts = _plain(read_model(path).tree)
     return replace(document, data=document.data | {"parts": parts, "contacts": stated_contacts(document)})
 
 

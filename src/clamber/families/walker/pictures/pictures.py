@@ -11,7 +11,7 @@ from ....planning.problem.problem import Replay
 from ....types import Floats
 from ....viewing import style
 from ....viewing.pictures import Pictures
-from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, write_facts
+from ....viewing.route import FACTS, draw_way, label_ghost, pick_ghosts, whole_title, write_facts
 from ....viewing.scene import Bounds, length_unit
 from ....viewing.view import Layout
 from ..planning.task import WalkerTask
@@ -32,7 +32,7 @@ def walker_route(task: WalkerTask, replay: Replay) -> Figure:
     bounds = walker_bounds(task, moments)
     layout = Layout(bounds, FACTS + 0.3, height=6.6)
     subtitle = f"{task.title or task.name}. Line: way of the Delta-frame, dark at the start"
-    figure, ground, panel, _ = layout.figure(f"The whole walk: {len(replay.reasons)} actions", subtitle)
+    figure, ground, panel, _ = layout.figure(whole_title("walk", replay), subtitle)
     draw_ground(ground, task, bounds)
     _draw_prints(ground, moments)
     _draw_ghosts(ground, task, moments, bounds)
