@@ -107,7 +107,7 @@ def _tried(work: Work, request: TrialsRequest, asked: TrialsOptions, words: Work
         if asked.replay is not None:
             raise typer.Exit(_replay(work, setup, asked.replay, words, line))
         line.show(f"0 of {asked.n} {dynamics.past}, the first ones are on their way", 0.0, now=True)
-        return run_trials(
+        trials = run_trials(
             setup,
             asked.seeds,
             executor=words.executor,
@@ -117,6 +117,10 @@ def _tried(work: Work, request: TrialsRequest, asked: TrialsOptions, words: Work
                 _so_far(trials, dynamics.past), len(trials.ended) / trials.asked, now=len(trials.ended) == 1
             ),
         )
+        if not trials.ended:
+            line.say(f"interrupted before the first of {asked.n} had ended")
+            raise typer.Exit(130)
+        return trials
 
 
 def _exit_code(trials: Trials[Any, Any], least: float | None, *, lenient: bool) -> int:
