@@ -10,7 +10,7 @@ LONG = 400
 MANY = 8
 """Parameters of a function."""
 CEILINGS = {
-    "lines": 122_341,
+    "lines": 122_344,
     "files": 796,
     f"files above {LONG} lines": 0,
     f"functions with more than {MANY} parameters": 14,

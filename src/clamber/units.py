@@ -64,7 +64,7 @@ _NAMES: Final = {
 }  # fmt: skip
 LONGEST: Final = 200
 """Letters of a quantity's text; no number says more, and a longer one may be anything."""
-_NUMBER: Final = re.compile(r"[+-]?(?:\d++(?:\.\d*+)?|\.\d++)(?:[eE][+-]?\d++)?")
+_NUMBER: Final = re.compile(r"[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?")
 _SEPARATORS: Final = re.compile(r"[\s*^·-]")
 
 

@@ -16,7 +16,7 @@ from .log import Log, LogError, build_log
 from .log_mcap import TOPIC, mcap_bytes, mcap_of, parse_mcap
 from .log_scene import LoggedScene
 
-_NOTE: Final = re.compile(r"[A-Za-z][\w -]*+")
+_NOTE: Final = re.compile(r"[A-Za-z][\w -]*")
 """Name of a note."""
 SEPARATORS: Final = ",;\t"
 """Of these, the one that occurs most in the first line separates the columns."""
