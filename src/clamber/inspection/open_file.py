@@ -36,10 +36,10 @@ def _started(task: Task) -> CompiledProblem:
         return family.problem(change_task(task, LENIENT))
 
 
-def start_margins(task: Task) -> tuple[Margin, ...]:
-    """Every check of the start stance, those that it violates too, in the order of the family's checks."""
+def start_margins(task: Task, problem: CompiledProblem | None = None) -> tuple[Margin, ...]:
+    """Every check of the start stance, those that it violates too, in the order of the family's checks; None: the problem is posed anew."""
     family = plan_family(task)
-    replay = _started(task).replay(np.array([pack(0)], np.int32), go_on=True)
+    replay = (problem or _started(task)).replay(np.array([pack(0)], np.int32), go_on=True)
     hard = family.hard(task)
     return tuple(
         Margin(
@@ -55,9 +55,9 @@ def start_margins(task: Task) -> tuple[Margin, ...]:
 
 def inspect_task(task: Task) -> Finding:
     """Facts of a task, whether its start holds and by how much, and what is odd about it."""
-    margins = start_margins(task)
+    problem = _started(task)  # once: a start in space is looked for among many sets of holds
+    margins = start_margins(task, problem)
     family, units = plan_family(task), units_of(task.document)
-    problem = _started(task)
     start = describe_body_pose(family.pose_axes, family.pose(task, problem.start[0]), units)
     facts = {
         "robot": task.robot.name,
